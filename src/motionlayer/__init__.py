@@ -1,0 +1,59 @@
+"""motionlayer: a motion runtime.
+
+>>> from motionlayer import Machine, Simulation
+
+The names here are loaded when they are first used, so that `import motionlayer` costs nothing.
+"""
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+__version__ = "0.1.0.dev0"
+
+if TYPE_CHECKING:
+    from motionlayer.command import Command, CommandAborted, CommandError, MotionError, all_of, any_of
+    from motionlayer.machine import Machine, MachineError, Simulation
+    from motionlayer.nc import AxisState, Direction, stopping
+    from motionlayer.record import Trace
+
+_HOME = {
+    "Command": "command",
+    "CommandAborted": "command",
+    "CommandError": "command",
+    "MotionError": "command",
+    "all_of": "command",
+    "any_of": "command",
+    "Machine": "machine",
+    "MachineError": "machine",
+    "Simulation": "machine",
+    "AxisState": "nc",
+    "Direction": "nc",
+    "stopping": "nc",
+    "Trace": "record",
+}
+
+__all__ = [
+    "AxisState",
+    "Command",
+    "CommandAborted",
+    "CommandError",
+    "Direction",
+    "Machine",
+    "MachineError",
+    "MotionError",
+    "Simulation",
+    "Trace",
+    "all_of",
+    "any_of",
+    "stopping",
+]
+
+
+def __getattr__(name: str) -> Any:  # noqa: ANN401 - whatever is asked for
+    if name not in _HOME:
+        raise AttributeError(f"module 'motionlayer' has no attribute {name!r}")
+    return getattr(importlib.import_module(f"motionlayer.{_HOME[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return sorted([*__all__, "__version__"])

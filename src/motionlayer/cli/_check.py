@@ -1,0 +1,23 @@
+"""`motionlayer check`."""
+
+from pathlib import Path
+
+import click
+
+
+@click.command(short_help="Check a machine file.")
+@click.argument("machine", type=click.Path(path_type=Path))
+def check(machine: Path) -> None:
+    """Check the file MACHINE completely; nothing runs.
+
+    Every problem is named with file, line, field, value and what is allowed.
+    """
+    from motionlayer.cli._files import load_machine  # noqa: PLC0415 - help does without it
+
+    description = load_machine(machine).description
+    axes, programs = list(description.axis), list(description.program)
+    click.echo(f"{machine}: valid: {description.name}, axes: {_names(axes)}; programs: {_names(programs)}")
+
+
+def _names(names: list[str]) -> str:
+    return ", ".join(names) or "none"

@@ -1,0 +1,73 @@
+"""`motionlayer run`: its options."""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import click
+
+from motionlayer.cli._options import page, seconds
+
+
+class Options(NamedTuple):
+    """What `motionlayer run` was asked for.
+
+    Attributes:
+        machine: the machine file.
+        program: `FILE[:NAME]`, in the place of the programs of the machine file.
+        time: s of the run.
+        seed: in the place of the seed of the machine file.
+        trace: file for the trace.
+        hash: take the hash of the run.
+        plot: file for the page.
+        patience: s of wall time until a program counts as stuck.
+    """
+
+    machine: Path
+    program: str | None
+    time: float | None
+    seed: int | None
+    trace: Path | None
+    hash: bool
+    plot: Path | None
+    patience: float | None
+
+
+@click.command(short_help="Run a machine in simulation.")
+@click.argument("machine", type=click.Path(path_type=Path))
+@click.option(
+    "--program",
+    metavar="FILE[:NAME]",
+    help="Run `async def NAME(run)` of FILE in the place of the programs of MACHINE.  [NAME: main]",
+)
+@click.option(
+    "--time", type=float, callback=seconds, metavar="S", help="End after S seconds of the run, at the latest."
+)
+@click.option(
+    "--seed", type=click.IntRange(0, 2**63 - 1), metavar="N", help="Seed, in the place of the one of MACHINE."
+)
+@click.option("--trace", type=click.Path(path_type=Path), metavar="FILE", help="Record the run to FILE.")
+@click.option("--hash", is_flag=True, help="Take the hash of the run, also without a trace.")
+@click.option(
+    "--plot",
+    type=click.Path(path_type=Path),
+    callback=page,
+    metavar="FILE",
+    help="Draw the run into the page FILE (.html).",
+)
+@click.option(
+    "--patience",
+    type=float,
+    callback=seconds,
+    metavar="S",
+    help="Seconds of wall time after which a program that does not yield ends the run.  [10]",
+)
+@click.pass_context
+def run(ctx: click.Context, /, **options: object) -> None:
+    """Run the programs of MACHINE, as fast as the computer allows.
+
+    The run ends when all programs have ended or its time is over. With --trace or --hash the last line is the hash
+    of the run: the same machine, program and seed give the same hash.
+    """
+    from motionlayer.cli._simulate import simulate  # noqa: PLC0415 - help does without it
+
+    ctx.exit(simulate(Options(**options)))  # type: ignore[arg-type]

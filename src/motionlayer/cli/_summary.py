@@ -1,0 +1,61 @@
+"""The summary of a run, one fact per line."""
+
+from collections.abc import Iterator, Sequence
+from typing import Final
+
+from motionlayer.cli._run import Options
+from motionlayer.cli._tally import Tally
+from motionlayer.event import Level
+from motionlayer.machine import Simulation
+
+MOST: Final = 8
+"""Axes and programs that are listed one by one."""
+
+
+def summary(run: Simulation, tally: Tally, wall: float, options: Options) -> Iterator[str]:
+    """Yield the lines of the summary, without the hash; `wall` in seconds."""
+    cycle = run.base_cycle_ns * 1e-9
+    factor = f", {run.time / wall:.3g} x real time" if wall > 0.0 else ""
+    facts = [
+        ("machine", [run.machine.name]),
+        ("simulated", [f"{run.time:.9g} s in {run.tick} ticks of {cycle * 1e3:.9g} ms"]),
+        ("wall time", [f"{wall:.3g} s{factor}"]),
+        ("axes", _shortened(_axes(run))),
+        ("programs", _shortened(_programs(tally))),
+        ("messages", list(_messages(tally, cycle))),
+        ("trace", [str(options.trace)] if options.trace else []),
+    ]
+    for name, lines in facts:
+        yield from lines_of(name, lines)
+
+
+def lines_of(name: str, lines: Sequence[str]) -> Iterator[str]:
+    """Yield lines below one another, the first one beside their name."""
+    for index, line in enumerate(lines):
+        yield f"{name if index == 0 else '':<11} {line}"
+
+
+def _axes(run: Simulation) -> list[str]:
+    units = run.machine.description.axis
+    return [
+        f"{name} at {axis.set_position:.9g} {units[name].unit}, {axis.state.name.lower().replace('_', ' ')}"
+        for name, axis in run.axes.items()
+    ]
+
+
+def _programs(tally: Tally) -> list[str]:
+    return [f"{name} {end}" + (f" {n} times" if n > 1 else "") for (name, end), n in tally.ends.items()]
+
+
+def _messages(tally: Tally, cycle: float) -> Iterator[str]:
+    if not tally.last:
+        return
+    counts = [f"{tally.levels[level]} {level.name.lower()}s" for level in (Level.ERROR, Level.WARNING)]
+    shown = f"; the last {len(tally.last)}:" if tally.levels.total() > len(tally.last) else ":"
+    yield ", ".join(counts) + shown
+    for event in tally.last:
+        yield f"  {event.tick * cycle:.6f} s  {event.level.name.lower()}  {event.source}: {event.text}"
+
+
+def _shortened(lines: list[str]) -> list[str]:
+    return lines if len(lines) <= MOST else [*lines[:MOST], f"and {len(lines) - MOST} more"]

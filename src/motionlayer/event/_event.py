@@ -1,0 +1,71 @@
+"""`Event` and the ring `EventLog`."""
+
+import enum
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+
+
+class Level(enum.IntEnum):
+    """How much a person should care."""
+
+    DEBUG = 0
+    INFO = 1
+    WARNING = 2
+    ERROR = 3
+
+
+class Kind(enum.StrEnum):
+    """What the record speaks of: a message, or one step in the life of a command."""
+
+    MESSAGE = "message"
+    ACCEPTED = "accepted"
+    REFUSED = "refused"
+    DONE = "done"
+    ABORTED = "aborted"
+    ERROR = "error"
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """One record.
+
+    Attributes:
+        tick: the tick in which it happened.
+        level: how much a person should care.
+        kind: a message, or which step of a command.
+        source: the object it speaks of, `X` or `program pick`.
+        text: one line for a person.
+        code: error id (`motionlayer.command.errors`), 0 without.
+        command: number of the command within the run, 0 without.
+    """
+
+    tick: int
+    level: Level
+    kind: Kind
+    source: str
+    text: str
+    code: int = 0
+    command: int = 0
+
+
+class EventLog:
+    """The last `capacity` events, and the listeners that see every one in order."""
+
+    def __init__(self, capacity: int = 4096) -> None:
+        self._ring: deque[Event] = deque(maxlen=capacity)
+        self._listeners: list[Callable[[Event], None]] = []
+
+    def listen(self, listener: Callable[[Event], None]) -> None:
+        """Call `listener` with every event from now on, in the cycle thread."""
+        self._listeners.append(listener)
+
+    def add(self, event: Event) -> None:
+        """Keep an event and hand it to the listeners."""
+        self._ring.append(event)
+        for listener in self._listeners:
+            listener(event)
+
+    def last(self, level: Level = Level.DEBUG) -> list[Event]:
+        """Return what the ring still holds, oldest first, from `level` upwards."""
+        return [event for event in self._ring if event.level >= level]

@@ -1,0 +1,29 @@
+"""Machine description: file → checked description → a run.
+
+A machine file is TOML, `format = 1`. It is checked completely before anything runs: each model checks its own
+table, relations between tables are checked beside the models, and all problems come in one `MachineError`,
+each with file, line, field, value and what is allowed. This is the only part that knows all others.
+"""
+
+from motionlayer.machine._description import Description
+from motionlayer.machine._errors import Finding, MachineError
+from motionlayer.machine._load import check_description, load_description
+from motionlayer.machine._machine import Machine
+from motionlayer.machine._programs import Loaded, ProgramError, Source, load_program, parse_source, sources_of
+from motionlayer.machine._simulation import Simulation
+
+__all__ = [
+    "Description",
+    "Finding",
+    "Loaded",
+    "Machine",
+    "MachineError",
+    "ProgramError",
+    "Simulation",
+    "Source",
+    "check_description",
+    "load_description",
+    "load_program",
+    "parse_source",
+    "sources_of",
+]

@@ -1,0 +1,230 @@
+"""The models of a machine description: keys, units, ranges and defaults of every table.
+
+Each model checks its own table, also values against one another; `_relations` checks what spans several
+tables. u is the unit of the axis.
+"""
+
+from collections.abc import Callable
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, field_validator
+from pydantic_core import PydanticCustomError
+
+FORMATS = (1,)
+"""Formats of the machine file that are understood."""
+
+SIGNALS = (
+    "set_position",
+    "set_velocity",
+    "set_acceleration",
+    "set_jerk",
+    "actual_position",
+    "max_velocity",
+    "max_acceleration",
+    "max_deceleration",
+    "max_jerk",
+    "software_limit_min",
+    "software_limit_max",
+    "state",
+    "override",
+)
+"""Names of the signals every axis has in a trace; the full name is `<axis>.<signal>`."""
+
+IDENTIFIER = r"^(?!.*__)[A-Za-z_][A-Za-z0-9_]*$"
+"""An IEC 61131-3 identifier."""
+
+Text: TypeAlias = Annotated[str, Field(min_length=1)]
+_Position: TypeAlias = Annotated[float, Field(allow_inf_nan=False, json_schema_extra={"x-unit": "u"})]
+_Positive: TypeAlias = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+_Velocity: TypeAlias = Annotated[_Positive, Field(json_schema_extra={"x-unit": "u/s"})]
+_Acceleration: TypeAlias = Annotated[_Positive, Field(json_schema_extra={"x-unit": "u/s²"})]
+_Jerk: TypeAlias = Annotated[_Positive, Field(json_schema_extra={"x-unit": "u/s³"})]
+
+
+def _same_as(field: str) -> Callable[[dict[str, Any]], Any]:
+    """Return a default: the value of a field before. Not used when that field is wrong itself."""
+    return lambda data: data.get(field)
+
+
+def _no_keys() -> Any:  # noqa: ANN401 - validated into the model of the field
+    return {}
+
+
+class _Table(BaseModel):
+    # strict: an integer is a number, but "1" and true are not.
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
+
+
+def _velocity_is_optional(schema: dict[str, Any]) -> None:
+    """Correct the JSON schema: the axis adds the search velocity where the file leaves it out."""
+    schema["required"].remove("velocity")
+    if not schema["required"]:
+        del schema["required"]
+
+
+class HomeDescription(_Table):
+    """How an axis finds its reference: `[axis.X.home]`."""
+
+    model_config = ConfigDict(json_schema_extra=_velocity_is_optional)
+
+    mode: Literal["direct", "switch"] = Field(
+        default="direct",
+        description='"direct": the present position becomes `position`; "switch": search the switch.',
+    )
+    position: _Position = Field(default=0.0, description="Reference position, at the switch if one is searched (u).")
+    switch: _Position | None = Field(
+        default=None,
+        validate_default=True,
+        description='Drive position of the simulated switch (u); needed for mode "switch". The switch is on '
+        'at or below it for direction "negative", at or above it for "positive".',
+        json_schema_extra={"x-unit": "u"},
+    )
+    direction: Literal["negative", "positive"] = Field(
+        default="negative", description="Direction of the search for the switch."
+    )
+    velocity: _Velocity = Field(
+        description="Search velocity (u/s), > 0 and at most max_velocity; default: a tenth of max_velocity."
+    )
+
+    @field_validator("switch")
+    @classmethod
+    def _switch_for_mode(cls, switch: float | None, info: ValidationInfo) -> float | None:
+        if switch is None and info.data.get("mode") == "switch":
+            raise PydanticCustomError("missing", "missing", {"hint": 'mode = "switch" needs it'})
+        return switch
+
+
+class DriveDescription(_Table):
+    """The drive of an axis: `[axis.X.drive]`."""
+
+    kind: Literal["ideal"] = Field(
+        default="ideal", description='"ideal": the actual position is the set position, without lag.'
+    )
+
+
+class AxisDescription(_Table):
+    """One axis: `[axis.X]`."""
+
+    unit: Text = Field(default="mm", description="Unit of positions, u in all other units.")
+    max_velocity: _Velocity = Field(description="Largest velocity (u/s), > 0.")
+    max_acceleration: _Acceleration = Field(description="Largest acceleration while |v| grows (u/s²), > 0.")
+    max_deceleration: _Acceleration = Field(
+        default_factory=_same_as("max_acceleration"),
+        description="Largest deceleration, while |v| falls (u/s²), > 0; default: max_acceleration.",
+    )
+    max_jerk: _Jerk = Field(description="Largest jerk (u/s³), > 0.")
+    velocity: _Velocity = Field(
+        default_factory=_same_as("max_velocity"),
+        description="Velocity of a command that names none (u/s), > 0 and at most max_velocity, its default.",
+    )
+    acceleration: _Acceleration = Field(
+        default_factory=_same_as("max_acceleration"),
+        description="Acceleration of a command that names none (u/s²), > 0 and at most max_acceleration, its default.",
+    )
+    deceleration: _Acceleration = Field(
+        default_factory=_same_as("max_deceleration"),
+        description="Deceleration of a command that names none (u/s²), > 0 and at most max_deceleration, its default.",
+    )
+    jerk: _Jerk = Field(
+        default_factory=_same_as("max_jerk"),
+        description="Jerk of a command that names none (u/s³), > 0 and at most max_jerk, its default.",
+    )
+    software_limit_min: _Position | None = Field(
+        default=None,
+        description="Lowest position of a command (u); default: none.",
+        json_schema_extra={"x-unit": "u"},
+    )
+    software_limit_max: _Position | None = Field(
+        default=None,
+        description="Highest position of a command (u), above software_limit_min; default: none.",
+        json_schema_extra={"x-unit": "u"},
+    )
+    start_position: _Position = Field(
+        default=0.0, description="Where the simulated drive stands at the beginning of a run (u)."
+    )
+    home: HomeDescription = Field(
+        default_factory=_no_keys,
+        validate_default=True,
+        description="How the axis finds its reference.",
+    )
+    drive: DriveDescription = Field(default_factory=DriveDescription, description="The drive of the axis.")
+
+    @field_validator("velocity", "acceleration", "deceleration", "jerk")
+    @classmethod
+    def _at_most_maximum(cls, value: float, info: ValidationInfo) -> float:
+        name = f"max_{info.field_name}"
+        maximum = info.data.get(name)
+        if maximum is not None and value > maximum:
+            raise PydanticCustomError("relation", "relation", {"allowed": f"at most {name} = {maximum}"})
+        return value
+
+    @field_validator("software_limit_max")
+    @classmethod
+    def _above_minimum(cls, value: float | None, info: ValidationInfo) -> float | None:
+        minimum = info.data.get("software_limit_min")
+        if value is not None and minimum is not None and value <= minimum:
+            allowed = f"greater than software_limit_min = {minimum}"
+            raise PydanticCustomError("relation", "relation", {"allowed": allowed})
+        return value
+
+    @field_validator("home", mode="before")
+    @classmethod
+    def _add_search_velocity(cls, home: object, info: ValidationInfo) -> object:
+        if isinstance(home, dict) and "velocity" not in home:
+            # Any number will do if max_velocity is wrong: the axis is refused for that alone.
+            return {**home, "velocity": info.data.get("max_velocity", 1.0) / 10}
+        return home
+
+
+class ProgramDescription(_Table):
+    """A program started with the run: `[program.pick]`."""
+
+    file: Text = Field(description="Python file, relative to the folder of the machine file; must exist.")
+    function: Text = Field(default="main", description="Name of the function in the file to start.")
+
+    @field_validator("function")
+    @classmethod
+    def _is_a_name(cls, function: str) -> str:
+        if not function.isidentifier():
+            raise PydanticCustomError("relation", "relation", {"allowed": "the name of a Python function"})
+        return function
+
+
+class TraceDescription(_Table):
+    """What a trace records: `[trace]`."""
+
+    signals: tuple[str, ...] = Field(
+        default=("*",),
+        strict=False,  # TOML gives a list
+        description="Glob patterns of the signals to record, over `<axis>.<signal>`; each must match one.",
+    )
+    resolution: dict[str, _Positive] = Field(
+        default_factory=dict,
+        description="Glob pattern of signals to the resolution (> 0, in the unit of the signal) in which "
+        "they are recorded; other signals are recorded without loss.",
+    )
+
+
+class Description(_Table):
+    """A checked machine description; made by `load_description` or `check_description`."""
+
+    format: Literal[1] = Field(description="Format of the machine file: 1.")
+    name: Text = Field(description="Name of the machine.")
+    base_cycle_ns: int = Field(
+        default=1_000_000,
+        ge=50_000,
+        le=100_000_000,
+        description="Base cycle (ns), 50 000 to 100 000 000.",
+        json_schema_extra={"x-unit": "ns"},
+    )
+    seed: int = Field(default=0, ge=0, le=2**63 - 1, description="Seed of everything random in a run.")
+    axis: dict[str, AxisDescription] = Field(
+        min_length=1,
+        description="The axes by name, in the order they have everywhere. A name is an IEC 61131-3 "
+        "identifier, unique without regard to case.",
+        json_schema_extra={"propertyNames": {"pattern": IDENTIFIER}},
+    )
+    program: dict[str, ProgramDescription] = Field(
+        default_factory=dict, description="Programs started with the run, in this order."
+    )
+    trace: TraceDescription = Field(default_factory=TraceDescription, description="What a trace records.")

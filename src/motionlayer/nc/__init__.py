@@ -1,0 +1,24 @@
+"""The numerical control: axes (point to point), built on profiles and the setpoint store."""
+
+from motionlayer.nc._axis import Axis
+from motionlayer.nc._config import AxisConfig, Direction, HomeConfig, HomingMode
+from motionlayer.nc._core import AxisPlan
+from motionlayer.nc._motion import AxisCommand
+from motionlayer.nc._stage import AxisStage
+from motionlayer.nc._states import TRANSITIONS, AxisEvent, AxisState
+from motionlayer.nc._stopping import stopping
+
+__all__ = [
+    "TRANSITIONS",
+    "Axis",
+    "AxisCommand",
+    "AxisConfig",
+    "AxisEvent",
+    "AxisPlan",
+    "AxisStage",
+    "AxisState",
+    "Direction",
+    "HomeConfig",
+    "HomingMode",
+    "stopping",
+]

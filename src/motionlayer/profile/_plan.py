@@ -1,0 +1,134 @@
+"""Planning at command time: from plain numbers to a checked `Profile`."""
+
+import math
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from motionlayer._kernel import kernel
+from motionlayer.profile._check import BAD_LIMITS, FINE, JUMP, REASONS, check, is_limit, strays
+from motionlayer.profile._kernels import Floats, extent, to_rest, to_velocity
+
+MAX_PIECES: Final = 20
+"""Most pieces of a plan: three ramps and a correction on each way, twice, and the endless last one."""
+
+
+class Limits(NamedTuple):
+    """Magnitudes, all finite and > 0, in u/s, u/s², u/s², u/s³."""
+
+    velocity: float
+    acceleration: float
+    deceleration: float
+    jerk: float
+
+
+class PlanError(ArithmeticError):
+    """A plan failed its own check; nothing was commanded. The message holds the input, to be pasted."""
+
+
+class Profile(NamedTuple):
+    """A checked plan.
+
+    Attributes:
+        pieces: shape (k, 5): seconds since the start, p, v, a at the start of the piece, jerk. The last one has
+            jerk and acceleration zero and goes on for ever.
+        low: least position until the last piece.
+        high: greatest position until the last piece.
+    """
+
+    pieces: Floats
+    low: float
+    high: float
+
+    @property
+    def duration(self) -> float:
+        """Seconds until the last piece begins."""
+        return float(self.pieces[-1, 0])
+
+
+_out: Final = np.zeros((MAX_PIECES, 5))
+_scratch: Final = np.zeros((MAX_PIECES, 5))
+
+
+@kernel
+def _plan(
+    out: Floats, scratch: Floats, p: float, v: float, a: float, target: float, to_position: bool,
+    vel: float, acc: float, dec: float, jerk: float,
+) -> tuple[int, float, float]:  # fmt: skip
+    """Plan, shift to the absolute position, check; return (pieces or fault, least, greatest position).
+
+    The plan is made from displacement 0, so that its precision does not depend on where the axis stands.
+    """
+    if not (is_limit(vel) and is_limit(acc) and is_limit(dec) and is_limit(jerk)):
+        return BAD_LIMITS, p, p
+    out[0, 0] = 0.0
+    out[0, 1] = 0.0
+    out[0, 2] = v
+    out[0, 3] = a
+    if to_position:
+        count = to_rest(out, scratch, target - p, vel, acc, dec, jerk)
+    else:
+        count = to_velocity(out, target, acc, dec, jerk)
+    for k in range(count):
+        out[k, 1] += p
+    if to_position:
+        out[count - 1, 1] = target
+    if count > 1:  # rounding may have touched the start; the check sees the joint to the next piece
+        out[0, 1] = p
+        out[0, 2] = v
+        out[0, 3] = a
+    elif strays(out[0], p, v, a, vel, max(acc, dec)):
+        return JUMP, p, p
+    fault = check(out, count, target, to_position, vel, acc, dec, jerk)
+    low, high = extent(out, count)
+    return (count if fault == FINE else fault), low, high
+
+
+def _planned(p: float, v: float, a: float, target: float, to_position: bool, limits: Limits) -> Profile:
+    count, low, high = _plan(_out, _scratch, p, v, a, target, to_position, *limits)
+    if count < 0:
+        name = "plan_position" if to_position else "plan_velocity"
+        raise PlanError(f"{REASONS[count]}: {name}({p!r}, {v!r}, {a!r}, {target!r}, {limits!r})")
+    return Profile(_out[:count].copy(), low, high)
+
+
+def plan_position(p: float, v: float, a: float, target: float, limits: Limits) -> Profile:
+    """Plan the fastest way from (p, v, a) to rest at `target`.
+
+    Args:
+        p: start position, u.
+        v: start velocity, u/s, also outside the limits.
+        a: start acceleration, u/s², also outside the limits.
+        target: end position, u.
+        limits: in force on the way; a start outside goes back inside first.
+
+    Raises:
+        PlanError: the result failed its check.
+    """
+    return _planned(p, v, a, target, True, limits)
+
+
+def plan_velocity(p: float, v: float, a: float, target: float, limits: Limits) -> Profile:
+    """Plan the fastest way from (p, v, a) to the signed velocity `target` and on with it for ever.
+
+    Raises:
+        ValueError: |target| is above the velocity limit.
+        PlanError: the result failed its check.
+    """
+    if not math.fabs(target) <= limits.velocity:
+        raise ValueError(f"target velocity {target} is above the limit {limits.velocity}")
+    return _planned(p, v, a, target, False, limits)
+
+
+def plan_stop(p: float, v: float, a: float, limits: Limits) -> Profile:
+    """Plan the fastest stop from (p, v, a); the velocity limit plays no part.
+
+    Raises:
+        PlanError: the result failed its check.
+    """
+    return _planned(p, v, a, 0.0, False, limits)
+
+
+def rest_at(p: float) -> Profile:
+    """Return the profile that stays at p."""
+    return Profile(np.array([[0.0, p, 0.0, 0.0, 0.0]]), p, p)

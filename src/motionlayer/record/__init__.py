@@ -1,0 +1,33 @@
+"""What a run leaves behind: the trace, its hash and the way from one to the other.
+
+A trace is a JSON header followed by chunks. All integers are little-endian, all floats are float64::
+
+    file    magic (8)  header length u32  header crc32 u32  header (JSON)  chunk*
+    chunk   tag (4)  payload length u64  crc32 of tag, length and payload u32  payload
+    ROWS    first tick i64  ticks u32  signals u32  kind of each column u8, then the columns grouped by kind
+    PLAN    one profile that a coordinate took over
+    EVNT    one event record (JSON)
+    TAIL    JSON: ticks, hash; absent when the writer did not come to its end
+
+A column of a block is stored as one value if all its bits agree, as differences of integers times the
+resolution of its signal if that signal is quantised, and else as it is. A file whose writer died is read up
+to its last whole chunk; plans and events are written before the rows that show them. The encoder is the same
+for files and memory.
+
+In the cycle a `Recorder` copies one row with one kernel call. Full blocks go to a thread that encodes, writes
+and hashes them; three blocks exist, and when none is free the run waits, so nothing is lost.
+
+The hash of a run is a BLAKE2b of two others and the number of ticks: one over set position, velocity,
+acceleration and actual position of all coordinates, tick by tick, one over the event records. It depends
+neither on the block size, nor on the signals that were selected, nor on whether there is a file.
+
+Plots are in `motionlayer.record.plot`, which is imported only by those who draw.
+"""
+
+from motionlayer.record._errors import TraceError
+from motionlayer.record._recorder import Recorder
+from motionlayer.record._records import Plan, Signal
+from motionlayer.record._trace import Trace
+from motionlayer.record._writer import TraceWriter
+
+__all__ = ["Plan", "Recorder", "Signal", "Trace", "TraceError", "TraceWriter"]

@@ -1,0 +1,170 @@
+"""`Trace`: a recorded run as a mapping of names to arrays."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from motionlayer.record._errors import TraceError
+from motionlayer.record._reader import Content, read
+from motionlayer.record._rows import quantise
+from motionlayer.record._writer import TraceWriter
+
+if TYPE_CHECKING:
+    from motionlayer.event import Event
+    from motionlayer.record._records import Plan, Signal
+
+Floats = NDArray[np.float64]
+
+SAVE_TICKS: Final = 4096
+"""Rows per block of a saved trace."""
+
+
+class Trace(Mapping[str, Floats]):
+    """A recorded run: signal name to read-only float64 array of shape (ticks,), in the order of the header.
+
+    Equal to another if every bit of it is. A column is decoded when it is first asked for.
+
+    Attributes:
+        header: as recorded; see the documentation of the format.
+        signals: names, units, resolutions.
+        plans: profiles that were taken over, in order.
+        events: in order. Plans and events of a trace that is not complete may be younger than its last row.
+        hash: of the run, hexadecimal; "" if not taken, if the trace is not complete or values were replaced.
+        complete: whether the writer came to its end and nothing is damaged; else this is what stands before.
+        base_cycle: s.
+        ticks: int64, number of every row; a jump is a gap in the recording.
+        time: s, of every row.
+    """
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __init__(self, content: Content, name: str = "") -> None:
+        self.header: dict[str, Any] = content.header
+        self.signals: tuple[Signal, ...] = content.signals
+        self.plans: tuple[Plan, ...] = tuple(content.plans)
+        self.events: tuple[Event, ...] = tuple(content.events)
+        self.hash: str = content.hash
+        self.complete: bool = content.complete
+        self.base_cycle: float = self.header["base_cycle_ns"] / 1e9
+        spans = [np.arange(block.first, block.first + block.ticks) for block in content.blocks]
+        self.ticks: NDArray[np.int64] = _sealed(np.concatenate([np.empty(0, np.int64), *spans]))
+        self.time: Floats = _sealed(self.ticks * int(self.header["base_cycle_ns"]) / 1e9)
+        self._blocks = content.blocks
+        self._columns = {signal.name: signal for signal in self.signals}
+        self._arrays: dict[str, Floats] = {}
+        self._name = name
+
+    @classmethod
+    def load(cls, path: str | Path) -> "Trace":
+        """Read a trace file; what stands before a damaged or cut off place is loaded.
+
+        Raises:
+            TraceError: there is no such file, it is no trace, or its header is damaged.
+        """
+        try:
+            data = Path(path).read_bytes()
+        except OSError as error:
+            raise TraceError(f"{path}: the trace cannot be read: {error.strerror}; name an existing file") from error
+        return cls(read([data], str(path)), str(path))
+
+    @classmethod
+    def from_chunks(cls, chunks: Iterable[bytes]) -> "Trace":
+        """Return the trace that a `TraceWriter` without a file has kept.
+
+        Raises:
+            TraceError: the first chunk is no head of a trace.
+        """
+        return cls(read(chunks, "memory"))
+
+    def __getitem__(self, name: str) -> Floats:
+        array = self._arrays.get(name)
+        if array is None:
+            signal = self._columns[name]
+            parts = [block.column(signal.index, signal.resolution) for block in self._blocks]
+            array = _sealed(np.concatenate([np.empty(0), *parts]))
+            self._arrays[name] = array
+        return array
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._columns
+
+    def __eq__(self, other: object) -> bool:
+        return (
+            isinstance(other, Trace)
+            and (self.header, self.plans, self.events) == (other.header, other.plans, other.events)
+            and (self.hash, self.complete) == (other.hash, other.complete)
+            and self.ticks.tobytes() == other.ticks.tobytes()
+            and all(self[name].tobytes() == other[name].tobytes() for name in self)
+        )
+
+    def __repr__(self) -> str:
+        size = f"{len(self)} signals x {len(self.ticks)} ticks of {self.base_cycle:g} s"
+        state = "" if self.complete else ", incomplete"
+        extras = f"{len(self.plans)} plans, {len(self.events)} events"
+        return f"<Trace {self._name or 'in memory'}: {size}, {extras}{state}>"
+
+    def replace(self, arrays: Mapping[str, ArrayLike]) -> "Trace":
+        """Return a trace with other values for some signals, and without a hash.
+
+        Quantised signals are rounded as in recording.
+
+        Raises:
+            KeyError: the trace has no such signal.
+            ValueError: an array is not of shape (ticks,).
+        """
+        other = object.__new__(Trace)
+        other.__dict__.update(self.__dict__, _arrays=dict(self._arrays), hash="")
+        for name, values in arrays.items():
+            if name not in self._columns:
+                raise KeyError(f"no signal {name!r} in {self!r}")
+            array = np.array(values, dtype=np.float64)
+            if array.shape != self.ticks.shape:
+                raise ValueError(f"{name}: shape {array.shape}; {self.ticks.shape} is expected")
+            resolution = self._columns[name].resolution
+            other._arrays[name] = _sealed(quantise(array, resolution) if resolution else array)
+        return other
+
+    def save(self, path: str | Path) -> None:
+        """Write the trace to a file, from which an equal one can be loaded.
+
+        Raises:
+            TraceError: the file cannot be written.
+        """
+        writer = TraceWriter(Path(path), self.header)
+        try:
+            for plan in self.plans:
+                writer.plan(plan)
+            for event in self.events:
+                writer.event(event)
+            for start, end in _runs(self.ticks):
+                columns = [self[name][start:end] for name in self]
+                block = np.array(columns).reshape(len(self), end - start).T
+                writer.rows(int(self.ticks[start]), block)
+            if self.complete:
+                writer.close(len(self.ticks), self.hash)
+        finally:
+            writer.abandon()
+
+
+def _sealed(array: NDArray[Any]) -> NDArray[Any]:
+    array.flags.writeable = False
+    return array
+
+
+def _runs(ticks: NDArray[np.int64]) -> Iterator[tuple[int, int]]:
+    """Yield spans of rows with consecutive ticks, at most `SAVE_TICKS` long."""
+    gaps = np.flatnonzero(np.diff(ticks) != 1) + 1
+    edges = [0, *gaps.tolist(), len(ticks)]
+    for begin, end in pairwise(edges):
+        for start in range(begin, end, SAVE_TICKS):
+            yield start, min(start + SAVE_TICKS, end)

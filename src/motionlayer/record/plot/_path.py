@@ -1,0 +1,159 @@
+"""The path in the plane."""
+
+from collections.abc import Iterator
+from typing import Any, Final
+
+import numpy as np
+import plotly.graph_objects as go
+from numpy.typing import NDArray
+
+from motionlayer.record._trace import Trace
+from motionlayer.record.plot._reduce import Floats, Indices, extent, follow
+from motionlayer.record.plot._series import axes_of, places_of_rest, speed_along
+from motionlayer.record.plot._style import SOFT, axis_style, common
+
+SPEED_SCALE: Final = ((0.0, "#c3d7ea"), (0.3, "#7fb2dc"), (0.65, "#2f78b7"), (1.0, "#0b2f5b"))
+SHADES: Final = 16
+"""Steps of the colour scale: a line of plotly has one colour."""
+
+REST: Final = "#d9772b"
+PATH_POINTS: Final = 16_000
+FINEST: Final = 2.0**-12
+"""Tolerance of the path as a share of its extent: a third of a millimetre of a metre."""
+
+MARGIN: Final = 0.03
+"""Free space around the path as a share of its extent."""
+
+WIDTH: Final = 1156
+"""Of the plane on a page of full width, px."""
+
+LEFT_PIXELS: Final = 68
+LEAST_HEIGHT, MOST_HEIGHT = 260, 720
+TOP_PIXELS, BOTTOM_PIXELS = 64, 56
+
+
+def path_chart(trace: Trace, plane: tuple[str, str]) -> go.Figure:
+    """Return the path of two axes in equal scales, coloured by speed, and its places of rest."""
+    x, y = trace[f"{plane[0]}.set_position"], trace[f"{plane[1]}.set_position"]
+    unit = axes_of(trace)[plane[0]]
+    chosen = _vertices(trace.time, x, y)
+    strokes = _strokes(trace.time[chosen], x[chosen], y[chosen], unit)
+    figure = go.Figure([*strokes, _places(trace, x, y, unit)])
+    x_range, y_range = _ranges(x, y)
+    height = np.clip(WIDTH * np.ptp(y_range) / np.ptp(x_range), LEAST_HEIGHT, MOST_HEIGHT)
+    equal = {"scaleanchor": "x", "constrain": "domain", "constraintoward": "top"}
+    figure.update_layout(
+        **common(),
+        height=int(height) + TOP_PIXELS + BOTTOM_PIXELS,
+        margin={"l": LEFT_PIXELS, "r": 16, "t": TOP_PIXELS, "b": BOTTOM_PIXELS},
+        showlegend=False,
+        hovermode="closest",
+        xaxis={**_axis(plane[0], unit, x_range), "constrain": "domain", "constraintoward": "left"},
+        yaxis={**_axis(plane[1], unit, y_range), **equal},
+    )
+    return figure
+
+
+def _vertices(time: Floats, x: Floats, y: Floats) -> Indices:
+    whole = max(extent(x), extent(y))
+    tolerance = FINEST * whole
+    chosen = follow(time, [x, y], [tolerance, tolerance])
+    while len(chosen) > PATH_POINTS and tolerance < whole:
+        tolerance *= 2.0
+        chosen = follow(time, [x, y], [tolerance, tolerance])
+    return chosen
+
+
+def _strokes(time: Floats, x: Floats, y: Floats, unit: str) -> Iterator[go.Scatter]:
+    """Yield the colour bar and the segments of each shade, the slow ones first."""
+    speed = np.hypot(np.diff(x), np.diff(y)) / np.diff(time)
+    top = float(speed.max(initial=0.0)) or 1.0
+    shade = np.minimum(speed / top * SHADES, SHADES - 1).astype(np.intp)
+    yield _colour_bar(unit, top)
+    x, y, time = (np.append(values, np.nan) for values in (x, y, time))
+    for number in range(SHADES):
+        rows = _joined(np.flatnonzero((shade == number) & (speed > 0.0)))
+        yield go.Scatter(
+            x=x[rows].astype(np.float32),
+            y=y[rows].astype(np.float32),
+            mode="lines",
+            line={"color": _colour((number + 0.5) / SHADES), "width": 1, "simplify": False},
+            opacity=0.7,
+            customdata=time[rows].astype(np.float32),
+            hovertemplate=f"%{{x:.2f}}, %{{y:.2f}} {unit}<br>{(number + 0.5) / SHADES * top:,.3g} {unit}/s"
+            "<br>at %{customdata:.2f} s<extra></extra>",
+        )
+
+
+def _colour(share: float) -> str:
+    """Return the colour of a speed, given as a share of the top speed."""
+    knots = [knot for knot, _ in SPEED_SCALE]
+    channels = np.array([list(bytes.fromhex(colour[1:])) for _, colour in SPEED_SCALE]).T
+    return "#" + "".join(f"{round(np.interp(share, knots, channel)):02x}" for channel in channels)
+
+
+def _joined(segments: Indices) -> Indices:
+    """Return the vertices of segments, neighbours joined; -1 parts those that are not."""
+    if not len(segments):
+        return segments
+    groups = np.split(segments, np.flatnonzero(np.diff(segments) > 1) + 1)
+    return np.concatenate([np.append(group, [group[-1] + 1, -1]) for group in groups])
+
+
+def _places(trace: Trace, x: Floats, y: Floats, unit: str) -> go.Scatter:
+    places, counts = places_of_rest(x, y, speed_along(x, y, trace.base_cycle))
+    return go.Scatter(
+        x=places[:, 0],
+        y=places[:, 1],
+        mode="markers",
+        marker={"size": _sizes(counts), "color": REST, "line": {"color": "white", "width": 1}},
+        customdata=counts,
+        hovertemplate=f"at rest %{{customdata}} times<br>%{{x:.3f}}, %{{y:.3f}} {unit}<extra></extra>",
+    )
+
+
+def _sizes(counts: NDArray[np.int64]) -> Floats:
+    """Return diameters whose areas grow with how often a place was visited, px."""
+    return np.minimum(6.0 * np.sqrt(counts), 16.0)
+
+
+def _colour_bar(unit: str, top: float) -> go.Scatter:
+    """Return a curve without points that carries the colour bar."""
+    return go.Scatter(
+        x=[None, None],
+        y=[None, None],
+        mode="markers",
+        hoverinfo="skip",
+        marker={
+            "color": [0.0, top],
+            "colorscale": SPEED_SCALE,
+            "colorbar": {
+                "title": {"text": f"speed in {unit}/s", "font": {"size": 12, "color": SOFT}, "side": "top"},
+                "orientation": "h",
+                "thickness": 8,
+                "len": 260,
+                "lenmode": "pixels",
+                "x": 0.0,
+                "xanchor": "left",
+                "xpad": 0,
+                "y": 1.0,
+                "yanchor": "bottom",
+                "ypad": 4,
+                "nticks": 5,
+                "outlinewidth": 0,
+                "tickfont": {"size": 11, "color": SOFT},
+                "separatethousands": True,
+            },
+        },
+    )
+
+
+def _ranges(x: Floats, y: Floats) -> tuple[Floats, Floats]:
+    """Return least and greatest of both coordinates with a margin, never nothing."""
+    margin = MARGIN * max(extent(x), extent(y)) or 1.0
+    return np.array([x.min() - margin, x.max() + margin]), np.array([y.min() - margin, y.max() + margin])
+
+
+def _axis(name: str, unit: str, span: Floats) -> dict[str, Any]:
+    text = f"{name} in {unit}" if unit else name
+    return {**axis_style(), "range": span.tolist(), "title": {"text": text, "font": {"size": 12}, "standoff": 12}}

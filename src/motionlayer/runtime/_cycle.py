@@ -1,0 +1,47 @@
+"""The steps of a tick and the stages that fill them."""
+
+import enum
+from collections.abc import Callable
+from typing import NamedTuple
+
+
+class Step(enum.IntEnum):
+    """When a stage runs within tick n.
+
+    ======== ========================================================================================
+    INPUTS   actual values, drive status, what came from outside
+    PROGRAMS the scheduler; nothing else
+    LAYER    changed Ctrl to jobs, jobs to commands
+    CAPTURE  everything valid at n is complete: set values, states and limits; read-only
+    MOTION   setpoints of n+1; commands end
+    OUTPUTS  setpoints to the drives; images published
+    OBSERVE  read-only
+    ======== ========================================================================================
+    """
+
+    INPUTS = 1
+    PROGRAMS = 2
+    LAYER = 3
+    CAPTURE = 4
+    MOTION = 5
+    OUTPUTS = 6
+    OBSERVE = 7
+
+
+class Stage(NamedTuple):
+    """Work of one part in every tick.
+
+    Attributes:
+        step: when it runs; stages of one step run in the order in which they were handed over.
+        name: for messages and statistics.
+        run: called with the tick.
+    """
+
+    step: Step
+    name: str
+    run: Callable[[int], None]
+
+
+def in_order(stages: list[Stage]) -> tuple[Callable[[int], None], ...]:
+    """Return what one tick calls, in order."""
+    return tuple(stage.run for stage in sorted(stages, key=lambda stage: stage.step))

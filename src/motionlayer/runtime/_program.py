@@ -1,0 +1,139 @@
+"""Programs and what they wait for.
+
+A program is a coroutine. It may await commands, `run.sleep` and `run.until`; each suspends it until a later tick.
+Who is due is decided before any program of a tick runs; each runs at most once per tick, in order of start.
+"""
+
+import sys
+from collections.abc import Callable, Coroutine, Generator
+from pathlib import Path
+from typing import Any, Final, NoReturn
+
+from motionlayer.command import Command
+
+Wait = "Command[Any] | Sleep | Until"
+
+
+class Cancelled(BaseException):
+    """Thrown into a program at the place where it waits, when it is cancelled."""
+
+
+class Sleep:
+    """Wait until a tick."""
+
+    def __init__(self, tick: int, seconds: float) -> None:
+        self.tick: Final = tick
+        self._seconds = seconds
+
+    def __await__(self) -> Generator["Sleep", None, None]:
+        yield self
+
+    def __str__(self) -> str:
+        return f"sleep({self._seconds:g})"
+
+
+class Until:
+    """Wait until a predicate holds; it is asked once per tick, before any program runs."""
+
+    def __init__(self, predicate: Callable[[], bool]) -> None:
+        self.predicate: Final = predicate
+
+    def __await__(self) -> Generator["Until", None, None]:
+        yield self
+
+    def __str__(self) -> str:
+        code = getattr(self.predicate, "__code__", None)
+        # The name alone: the text reaches the hash of the run, which must not depend on where a file lies.
+        where = f" at {Path(code.co_filename).name}:{code.co_firstlineno}" if code is not None else ""
+        return f"until(...){where}"
+
+
+class Deadline:
+    """A `fail_after` that is open in a program."""
+
+    __slots__ = ("seconds", "tick")
+
+    def __init__(self, tick: int, seconds: float) -> None:
+        self.tick = tick
+        self.seconds = seconds
+
+
+class Program(Command[Any]):
+    """A running coroutine; a command too, so that it can be awaited.
+
+    Attributes:
+        failure: the exception that left it, if any.
+    """
+
+    def __init__(self, coroutine: Coroutine[Any, Any, Any], name: str, *, number: int, owner: "Program | None") -> None:
+        super().__init__(name, number=number, owner=owner)
+        self.failure: BaseException | None = None
+        self.deadlines: list[Deadline] = []
+        self.waits_for: Command[Any] | Sleep | Until | None = None
+        self.cancelling = False
+        self._coroutine = coroutine
+
+    def cancel(self) -> None:
+        """Throw `Cancelled` into the program in the next tick, where it waits; what it commanded goes on."""
+        self.cancelling = True
+
+    def resume(self, throw: BaseException | None = None) -> bool:
+        """Run to the next wait; return False when the coroutine has returned.
+
+        Raises:
+            BaseException: whatever leaves the coroutine.
+        """
+        self.waits_for = None
+        try:
+            with _NoLoop():
+                asked = self._coroutine.throw(throw) if throw is not None else self._coroutine.send(None)
+                while not isinstance(asked, (Command, Sleep, Until)):
+                    asked = self._coroutine.throw(_foreign(asked))
+        except StopIteration as end:
+            self._value = end.value
+            return False
+        self.waits_for = asked
+        return True
+
+    @property
+    def value(self) -> Any:  # noqa: ANN401 - whatever the coroutine returns
+        """What the coroutine returned."""
+        return self._value
+
+    def close(self) -> None:
+        """Let the coroutine run its `finally` blocks; it cannot wait any more."""
+        self._coroutine.close()
+
+
+class _NoLoop:
+    """What asyncio finds while a program runs: without it `asyncio.sleep` would miss a loop, and say only that.
+
+    An asyncio that nobody has imported is left alone, and so is a loop that the whole run happens in.
+    """
+
+    def __init__(self) -> None:
+        self._events: Any = None
+
+    def __enter__(self) -> None:
+        events = sys.modules.get("asyncio.events")
+        if events is not None and events._get_running_loop() is None:  # noqa: SLF001 - exported for makers of loops
+            events._set_running_loop(self)  # noqa: SLF001
+            self._events = events
+
+    def __exit__(self, *_: object) -> None:
+        if self._events is not None:
+            self._events._set_running_loop(None)  # noqa: SLF001
+            self._events = None
+
+    def __getattr__(self, name: str) -> NoReturn:
+        raise TypeError(f"a program has no asyncio loop ({name}): {_OWN_WAITS}; {_NOT_ASYNCIO}")
+
+
+_OWN_WAITS: Final = "await a command, run.sleep(seconds) or run.until(predicate)"
+_NOT_ASYNCIO: Final = "await run.sleep(seconds) instead of asyncio.sleep"
+
+
+def _foreign(asked: object) -> TypeError:
+    kind = f"{type(asked).__module__}.{type(asked).__qualname__}" if asked is not None else "a bare yield"
+    advice = f"; {_NOT_ASYNCIO}" if "Future" in kind or asked is None else ""
+    return TypeError(f"a program cannot await {kind}: {_OWN_WAITS}{advice}")

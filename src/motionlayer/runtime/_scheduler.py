@@ -1,0 +1,169 @@
+"""The scheduler: which programs are due, and what becomes of those that fail."""
+
+import traceback
+from collections.abc import Callable, Coroutine
+from typing import Any
+
+from motionlayer.command import Command, CommandAborted, CommandError, ErrorId, Ledger, MotionError
+from motionlayer.event import Event, EventLog, Kind, Level
+from motionlayer.runtime._program import Cancelled, Program, Sleep, Until
+
+
+class Scheduler:
+    """Run the programs of a run, one step of each tick.
+
+    Args:
+        ledger: its tick and issuer are kept here.
+        events: where the end of programs is told.
+        on_failure: called with a program that failed and that nobody awaits.
+    """
+
+    def __init__(self, ledger: Ledger, events: EventLog, on_failure: Callable[[Program], None]) -> None:
+        self.programs: list[Program] = []
+        """Programs that have not ended, in order of start."""
+        self.failures: list[Program] = []
+        """Programs that failed and that nobody awaited."""
+        self._ledger = ledger
+        self._events = events
+        self._on_failure = on_failure
+        self._ended_waits: dict[int, int] = {}
+
+    def start(self, coroutine: Coroutine[Any, Any, Any], name: str) -> Program:
+        """Add a program; it first runs in the next programs step that begins.
+
+        Raises:
+            TypeError: it is not a coroutine.
+        """
+        if not isinstance(coroutine, Coroutine):
+            raise TypeError(f"{name}: {coroutine!r} is not a coroutine; call the async function: start(program())")
+        issuer = self._ledger.issuer
+        owner = issuer if isinstance(issuer, Program) else None
+        program = Program(coroutine, name, number=self._ledger.number(), owner=owner)
+        program.activate()
+        self.programs.append(program)
+        self._tell(program, Level.INFO, Kind.ACCEPTED, "started")
+        return program
+
+    def run(self, tick: int) -> None:
+        """Resume everyone who is due in this tick."""
+        due = [(program, throw) for program in self.programs for is_due, throw in [self._due(program, tick)] if is_due]
+        for program, throw in due:
+            if program.busy:
+                self._resume(program, throw)
+
+    def cancel_all(self) -> None:
+        """Cancel what still runs, in reverse order; a program that waits again is closed."""
+        for program in reversed(self.programs.copy()):
+            if program.busy:
+                self._resume(program, Cancelled())
+            if program.busy:
+                self._close(program)
+
+    def _close(self, program: Program) -> None:
+        """Close a program that waits again although the run is over."""
+        failure: BaseException = Cancelled()
+        try:
+            program.close()
+        except Exception as error:  # noqa: BLE001 - the program's own fault
+            failure = error
+        self._finish(program, failure)
+
+    def _due(self, program: Program, tick: int) -> tuple[bool, BaseException | None]:
+        if program.cancelling:
+            return True, Cancelled()
+        wait = program.waits_for
+        if wait is None:
+            return True, None
+        if isinstance(wait, Sleep):
+            met = tick >= wait.tick
+        elif isinstance(wait, Until):
+            self._ledger.issuer = program  # so that the watchdog can name it
+            try:
+                met = bool(wait.predicate())
+            except Exception as error:  # noqa: BLE001 - the program's own fault, raised where it waits
+                return True, error
+            finally:
+                self._ledger.issuer = None
+        else:
+            met = program.number not in self._ended_waits or self._ended_waits[program.number] < tick
+        if met:
+            return True, None
+        late = next((deadline for deadline in program.deadlines if tick >= deadline.tick), None)
+        if late is None:
+            return False, None
+        what = wait.name if isinstance(wait, Command) else str(wait)
+        return True, TimeoutError(f"{program.name}: {late.seconds:g} s passed while waiting for {what}")
+
+    def _resume(self, program: Program, throw: BaseException | None) -> None:
+        self._ledger.issuer = program
+        if isinstance(throw, Cancelled):  # one that came after who is due was decided is for the next tick
+            program.cancelling = False
+        self._ended_waits.pop(program.number, None)
+        try:
+            if program.resume(throw):
+                self._watch(program)
+                return
+            failure: BaseException | None = None
+        except Cancelled as cancelled:
+            failure = cancelled
+        except Exception as error:  # noqa: BLE001 - a fault in a program never stops the cycle
+            failure = error
+        except BaseException as interrupt:  # Ctrl-C or the watchdog: the run ends
+            self._finish(program, interrupt)
+            raise
+        finally:
+            self._ledger.issuer = None
+        self._finish(program, failure)
+
+    def _watch(self, program: Program) -> None:
+        """Note when the command that a program waits for ends: it is due from the tick after."""
+        wait = program.waits_for
+        if not isinstance(wait, Command):
+            return
+        number = program.number
+        self._ended_waits[number] = _NEVER
+
+        def ended() -> None:
+            if program.waits_for is wait:
+                self._ended_waits[number] = self._ledger.tick
+
+        wait.on_end(ended, lambda: program.waits_for is wait)
+
+    def _finish(self, program: Program, failure: BaseException | None) -> None:
+        self.programs.remove(program)
+        if failure is None:
+            self._tell(program, Level.INFO, Kind.DONE, "ended")
+            program.finish(program.value)
+        elif isinstance(failure, Cancelled):
+            self._tell(program, Level.INFO, Kind.ABORTED, "cancelled")
+            program.abort()
+        else:
+            self._fail(program, failure)
+
+    def _fail(self, program: Program, failure: BaseException) -> None:
+        program.failure = failure
+        text = describe(failure)
+        known = failure.error.id if isinstance(failure, CommandError) else ErrorId.INTERNAL
+        awaited = program.awaited
+        self._tell(program, Level.ERROR, Kind.ERROR, text, known)
+        program.fail(MotionError(known, program.name, text))
+        if not awaited:
+            self.failures.append(program)
+            self._on_failure(program)
+
+    def _tell(self, program: Program, level: Level, kind: Kind, text: str, code: int = 0) -> None:
+        source = f"program {program.name}"
+        self._events.add(Event(self._ledger.tick, level, kind, source, text, code, program.number))
+
+
+_NEVER = 2**62
+
+
+def describe(failure: BaseException) -> str:
+    """Return an exception in one line, with the place in the program where it left."""
+    frames = traceback.extract_tb(failure.__traceback__)
+    own = [frame for frame in frames if "motionlayer" not in frame.filename.split("/")[-3:-1]]
+    last = own[-1] if own else None
+    where = f" (line {last.lineno} in {last.name})" if last is not None else ""
+    kind = "" if isinstance(failure, (CommandError, CommandAborted)) else f"{type(failure).__name__}: "
+    return f"{kind}{failure}{where}"

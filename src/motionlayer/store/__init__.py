@@ -1,0 +1,25 @@
+"""The setpoint store: where the numbers of all coordinates live, and the kernels that sample them.
+
+One float64 table, `Store.table`, holds one quantity per row and one coordinate per column, so that a quantity is
+contiguous, a state object holds a column number instead of numbers, and a copy of the table is a snapshot.
+
+A *generator* is a column with the cubic piece it is on::
+
+    t = (n - TICK) * dt + OFFSET          seconds since the profile began, at tick n; never accumulated
+    s = t - PIECE_TIME
+    p = PIECE_P + s * (PIECE_V + s * (PIECE_A / 2 + s * PIECE_J / 6))
+
+The pieces that follow wait in `Store.pieces`; going on to the next one is the rare branch of the sampler. A *sum* is a
+coordinate behind the generators whose setpoint is that of two coordinates before it (superposition, offsets).
+Levels are evaluated in order, generators first, one kernel call per level.
+
+`sample(n)` replaces the setpoints of tick n-1 by those of tick n. It reports the columns whose profile came to
+its last piece on the way, and tells those who watch for a position, each with the time at which it happened inside
+the cycle: only their objects have anything to do.
+The set jerk is the mean over the cycle that ends at n, (a(n) - a(n-1)) / dt: what a sampled drive sees.
+"""
+
+from motionlayer.store._layout import PIECE_FIELDS, Q
+from motionlayer.store._store import Ended, Snapshot, Store, Watch
+
+__all__ = ["PIECE_FIELDS", "Ended", "Q", "Snapshot", "Store", "Watch"]

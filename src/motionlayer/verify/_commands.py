@@ -1,0 +1,118 @@
+"""Rules that join plans, samples and the life of commands."""
+
+from collections.abc import Mapping
+from itertools import pairwise
+
+import numpy as np
+
+from motionlayer.event import Kind
+from motionlayer.verify._axis import Axis
+from motionlayer.verify._lives import FOREVER, Life
+from motionlayer.verify._report import Finding
+from motionlayer.verify._states import State
+from motionlayer.verify._tolerance import Slack, sample_tolerance
+
+Lives = Mapping[int, Life]
+
+
+def command_rules(axis: Axis, lives: Lives) -> list[Finding]:
+    """All rules over the commands of an axis."""
+    return [
+        *_plans_of_commands(axis, lives),
+        *_replaced(axis, lives),
+        *_done_at_target(axis, lives),
+        *_ended_in(axis, lives, State.STANDSTILL, 1),
+        *_ended_in(axis, lives, State.ERRORSTOP, 0),
+    ]
+
+
+def _plans_of_commands(axis: Axis, lives: Lives) -> list[Finding]:
+    """A plan serves a command that was accepted, and that has not ended; an endless motion may go on."""
+    found = []
+    for tick, number, kind in _plan_rows(axis):
+        life = lives.get(number)
+        if number == 0:
+            continue
+        if life is None or life.kind == Kind.REFUSED or life.accepted > tick or life.source != axis.name:
+            text = f"a plan serves command {number}, which the axis has not accepted"
+            found.append(axis.finding("command plan", tick, text))
+        elif life.ended < tick and kind == "position":
+            text = f"a plan serves command {number}, which ended in tick {life.ended}"
+            found.append(axis.finding("command plan", tick, text))
+    return found
+
+
+def _plan_rows(axis: Axis) -> list[tuple[int, int, str]]:
+    curves = axis.curves
+    return list(zip(curves.tick.tolist(), curves.command.tolist(), curves.kind.tolist(), strict=True))
+
+
+def _replaced(axis: Axis, lives: Lives) -> list[Finding]:
+    """A command whose plan is replaced by that of another one has ended then."""
+    found = []
+    for (_, old, _), (tick, new, _) in pairwise(_plan_rows(axis)):
+        life = lives.get(old)
+        if new not in (0, old) and life is not None and life.ended > tick:
+            text = f"command {old} is replaced by command {new} and has not ended"
+            found.append(axis.finding("command end", tick, text))
+    return found
+
+
+def _last_plans(axis: Axis) -> dict[int, int]:
+    """Return the last plan of each command, as index."""
+    return {number: plan for plan, number in enumerate(axis.curves.command.tolist()) if number}
+
+
+def _done_at_target(axis: Axis, lives: Lives) -> list[Finding]:
+    """A command that is done in tick n has its set position (or velocity) at its target at n + 1."""
+    curves, found = axis.curves, []
+    slack = Slack.of(curves)
+    wide_p, wide_v = sample_tolerance(axis, "set_position"), sample_tolerance(axis, "set_velocity")
+    for life in lives.values():
+        plan = _plan_when_done(axis, life)
+        row = life.ended + 1 - int(axis.ticks[0])
+        if plan is None or not 0 <= row < len(axis.ticks):
+            continue
+        p, v = float(axis.signals["set_position"][row]), float(axis.signals["set_velocity"][row])
+        if axis.redefined[row]:  # another coordinate already: what the plan says is what the old one would show
+            p = float(curves.at(np.array([plan]), curves.time(np.array([plan]), np.array([life.ended + 1]))).p[0])
+        target = float(curves.target[plan])
+        by_position, by_velocity = (p, target, wide_p[row] + slack.p[plan], 0), (v, target, wide_v[row], 1)
+        cases = {"velocity": by_velocity, "stop": (v, 0.0, wide_v[row], 1)}
+        value, limit, allowed, order = cases.get(str(curves.kind[plan]), by_position)
+        if not abs(value - limit) <= allowed:
+            text = f"command {life.number} is done beside its target"
+            found.append(axis.finding("done", life.ended, text, value=value, limit=limit, unit=axis.unit(order)))
+    return found
+
+
+def _plan_when_done(axis: Axis, life: Life) -> int | None:
+    """Return the last plan a command of the axis had when it was done; None without."""
+    if life.kind != Kind.DONE or life.source != axis.name:
+        return None
+    own = np.flatnonzero((axis.curves.command == life.number) & (axis.curves.tick <= life.ended))
+    return int(own[-1]) if len(own) else None
+
+
+def _ended_in(axis: Axis, lives: Lives, state: State, before: int) -> list[Finding]:
+    """When an axis is in `state`, each command that had moved it has ended, at least `before` ticks ago."""
+    if "state" not in axis.signals:
+        return []
+    rows = axis.ticks[axis.signals["state"] == state]
+    found = []
+    for number, plan in _last_plans(axis).items():
+        life, index = lives.get(number), int(np.searchsorted(rows, axis.curves.tick[plan], side="right"))
+        if life is None or index == len(rows) or not _moves(axis, plan):
+            continue
+        if life.ended > rows[index] - before:
+            when = "only later" if life.ended < FOREVER else "never"
+            text = f"the axis is in {state.name}, and command {number}, which had moved it, ends {when}"
+            found.append(axis.finding("command end", int(rows[index]), text))
+    return found
+
+
+def _moves(axis: Axis, plan: int) -> bool:
+    """Whether a plan is a motion, or redefines the coordinate at the end of one (homing)."""
+    row = int(axis.curves.tick[plan] - axis.ticks[0])
+    homing = 0 <= row < len(axis.ticks) and axis.signals["state"][row] == State.HOMING
+    return bool(axis.curves.kind[plan] != "set" or homing)

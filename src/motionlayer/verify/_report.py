@@ -1,0 +1,75 @@
+"""What the judge says: `Finding` and `Report`."""
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One thing that is wrong in a trace.
+
+    Attributes:
+        axis: name of the axis, empty for the trace as a whole.
+        tick: where it shows first.
+        time: the same in seconds.
+        rule: name of the rule that was broken.
+        message: what is wrong, for a person.
+        value: the number found, in `unit`; nan where the rule is not about a number.
+        limit: the number it was held against, in `unit`, tolerance not included; nan as above.
+        unit: of `value` and `limit`.
+    """
+
+    axis: str
+    tick: int
+    time: float
+    rule: str
+    message: str
+    value: float = math.nan
+    limit: float = math.nan
+    unit: str = ""
+
+    def __str__(self) -> str:
+        who = self.axis or "trace"
+        text = f"{who} at tick {self.tick} ({self.time:.6f} s): {self.rule}: {self.message}"
+        if math.isnan(self.value) and math.isnan(self.limit):
+            return text
+        return f"{text}: {self.value:.17g} against {self.limit:.17g} {self.unit}".rstrip()
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """The judgement of one trace.
+
+    Attributes:
+        findings: what is wrong, axis by axis in the order of the rules.
+        refused: what could not be judged at all, and why; a trace with refusals is not `ok`.
+        notes: what was left out because the trace does not contain it, and whether the trace is incomplete.
+        axes: names of the axes that were judged.
+        ticks: number of rows.
+        plans: number of plans of the judged axes.
+        commands: number of commands seen in the events.
+    """
+
+    findings: tuple[Finding, ...]
+    refused: tuple[str, ...]
+    notes: tuple[str, ...]
+    axes: tuple[str, ...]
+    ticks: int
+    plans: int
+    commands: int
+
+    @property
+    def ok(self) -> bool:
+        """Whether everything was judged and nothing is wrong."""
+        return not self.findings and not self.refused
+
+    def __str__(self) -> str:
+        verdict = "valid" if self.ok else "NOT VALID" if self.findings else "REFUSED"
+        judged = f"{len(self.axes)} axes ({', '.join(self.axes) or 'none'}), {self.ticks} ticks"
+        counts = f"{self.plans} plans, {self.commands} commands"
+        result = f"{len(self.findings)} findings, {len(self.refused)} refusals"
+        lines = [f"{verdict}: {judged}, {counts}; {result}"]
+        lines += [f"  {finding}" for finding in self.findings]
+        lines += [f"  cannot judge: {reason}" for reason in self.refused]
+        lines += [f"  note: {note}" for note in self.notes]
+        return "\n".join(lines)

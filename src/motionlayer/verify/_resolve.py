@@ -1,0 +1,77 @@
+"""What cannot be judged, and why: said instead of a verdict."""
+
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from motionlayer.verify._axis import OTHER_SIGNALS, SET_SIGNALS
+from motionlayer.verify._wellformed import malformed
+
+if TYPE_CHECKING:
+    from motionlayer.record import Trace
+
+FORMAT: Final = 1
+COARSEST: Final = 0.1
+"""Largest share of what a limit allows in one cycle that a resolution may hide."""
+
+
+def unresolved_trace(trace: "Trace") -> list[str]:
+    """Return why the trace as a whole cannot be judged."""
+    header, reasons = trace.header, []
+    if header.get("format") != FORMAT:
+        reasons.append(f"format {header.get('format')!r} of the trace; format {FORMAT} is understood")
+    if not header.get("machine", {}).get("axis"):
+        reasons.append("the header describes no axis")
+    if not float(trace.base_cycle) > 0.0:
+        reasons.append(f"the base cycle is {trace.base_cycle} s")
+    if not len(trace.ticks):
+        return [*reasons, "the trace has no rows"]
+    gaps = np.flatnonzero(np.diff(trace.ticks) != 1)
+    if len(gaps):
+        first = int(trace.ticks[gaps[0]])
+        reasons.append(f"the ticks have {len(gaps)} gaps, the first one after tick {first}")
+    return reasons
+
+
+def unresolved_axis(trace: "Trace", name: str) -> list[str]:
+    """Return why an axis of the machine cannot be judged."""
+    missing = [signal for signal in SET_SIGNALS if f"{name}.{signal}" not in trace]
+    if missing:
+        return [f"{name}: not recorded: {', '.join(missing)}; add them to the signals of the trace"]
+    plans = [plan for plan in trace.plans if plan.axis == name]
+    if not plans:
+        return [f"{name}: the trace holds no plan of the axis"]
+    if min(plan.tick for plan in plans) > trace.ticks[0]:
+        return [f"{name}: no plan covers tick {int(trace.ticks[0])}, the first row"]
+    if any(malformed(plan) for plan in plans):
+        return []  # a finding, not a question of resolution
+    return _too_coarse(trace, name)
+
+
+def _too_coarse(trace: "Trace", name: str) -> list[str]:
+    plans = [plan for plan in trace.plans if plan.axis == name]
+    dt = float(trace.base_cycle)
+    v = min((plan.velocity for plan in plans if plan.velocity > 0.0), default=np.inf)
+    a = min(min(plan.acceleration, plan.deceleration) for plan in plans)
+    j = min(plan.jerk for plan in plans)
+    steps = {"set_position": v * dt, "set_velocity": min(v, a * dt), "set_acceleration": min(a, j * dt)}
+    reasons = []
+    for signal in trace.signals:
+        axis, _, short = signal.name.rpartition(".")
+        most = COARSEST * steps.get(short, np.inf)
+        if axis == name and signal.resolution > most:
+            reasons.append(
+                f"{signal.name}: a resolution of {signal.resolution:g} {signal.unit} hides what the limits "
+                f"in force allow in a cycle; at most {most:g} {signal.unit} can be judged"
+            )
+    return reasons
+
+
+def not_judged(trace: "Trace", name: str) -> list[str]:
+    """Return a note if signals are missing that rules would have looked at."""
+    missing = [signal for signal in OTHER_SIGNALS if f"{name}.{signal}" not in trace]
+    notes = [f"{name}: not recorded, hence not judged: {', '.join(missing)}"] if missing else []
+    kind = trace.header["machine"]["axis"][name].get("drive", {}).get("kind")
+    if kind != "ideal":
+        notes.append(f"{name}: the actual position of a drive of kind {kind!r} is not judged")
+    return notes

@@ -1,0 +1,164 @@
+"""Rules over the samples: equal to the plans, and plausible without them."""
+
+from typing import Final
+
+import numpy as np
+
+from motionlayer.verify._axis import LIMITS, Axis
+from motionlayer.verify._curves import Flags, Floats
+from motionlayer.verify._report import Finding
+from motionlayer.verify._states import MAY_BE_OUTSIDE
+from motionlayer.verify._tolerance import TOLERANCES, quantisation, sample_tolerance
+
+SET: Final = (("set_position", "p", 0), ("set_velocity", "v", 1), ("set_acceleration", "a", 2))
+
+
+def _differs(value: Floats, expected: Floats, allowed: Floats | float) -> Flags:
+    """Tell which samples are off; a nan is, equal infinities are not."""
+    with np.errstate(invalid="ignore"):
+        return np.asarray(~(np.abs(value - expected) <= allowed) & (value != expected))
+
+
+def _against(axis: Axis, rule: str, signal: str, expected: Floats, *, order: int, text: str) -> list[Finding]:
+    if signal not in axis.signals:
+        return []
+    value = axis.signals[signal]
+    bad = _differs(value, expected, sample_tolerance(axis, signal))
+    return axis.findings(rule, bad, axis.ticks, f"{signal} {text}", value=value, limit=expected, order=order)
+
+
+def set_values(axis: Axis) -> list[Finding]:
+    """Set position, velocity and acceleration are what the plans say, tick by tick."""
+    found = []
+    for signal, quantity, order in SET:
+        expected: Floats = getattr(axis.reference, quantity)
+        found += _against(axis, "set value", signal, expected, order=order, text="is not what the plan says")
+    return found
+
+
+def set_jerk(axis: Axis) -> list[Finding]:
+    """Set jerk is the difference of the accelerations over the cycle that ends at the tick."""
+    mean = (axis.reference.a - axis.reference_before.a) / axis.dt
+    return _against(axis, "set jerk", "set_jerk", mean, order=3, text="is not the difference of the accelerations")
+
+
+def limit_signals(axis: Axis) -> list[Finding]:
+    """Limit signals are those of the plan in force; software limits are the machine's."""
+    found = []
+    for signal, order in zip(LIMITS, (1, 2, 2, 3), strict=True):
+        text = "is not the limit of the plan in force"
+        found += _against(axis, "limit signal", signal, axis.limit(signal), order=order, text=text)
+    for side in ("min", "max"):
+        limit = np.full(len(axis.ticks), axis.software_limit(side))
+        text = "is not the machine's"
+        found += _against(axis, "limit signal", f"software_limit_{side}", limit, order=0, text=text)
+    return found
+
+
+def actual_position(axis: Axis) -> list[Finding]:
+    """The actual position of an ideal drive is its set position. Other drives are not judged."""
+    if axis.machine.get("drive", {}).get("kind") != "ideal":
+        return []
+    text = "of an ideal drive is not the set position"
+    return _against(axis, "actual position", "actual_position", axis.reference.p, order=0, text=text)
+
+
+def override(axis: Axis) -> list[Finding]:
+    """The override is between 0 and 1."""
+    value = axis.signals.get("override")
+    if value is None:
+        return []
+    widening = quantisation(axis, "override")
+    bad = ~((value >= -widening) & (value <= 1.0 + widening))
+    return axis.findings(
+        "override", bad, axis.ticks, "is not between 0 and 1", value=value, limit=np.clip(value, 0.0, 1.0)
+    )
+
+
+def differences(axis: Axis) -> list[Finding]:
+    """From the samples alone: over each cycle they fit one another within the jerk limit in force.
+
+    With |jerk| <= J and both ends known, v differs from the trapezoid of a by at most J dt²/4, and p from the
+    trapezoid of v by at most J dt³/12.
+    """
+    if len(axis.ticks) < 2:
+        return []
+    p, v, a = (axis.signals[signal] for signal, _, _ in SET)
+    wide_p, wide_v, wide_a = (sample_tolerance(axis, signal) for signal, _, _ in SET)
+    wide_p, wide_v, wide_a = (wide[1:] + wide[:-1] for wide in (wide_p, wide_v, wide_a))
+    dt, limit = axis.dt, axis.limit("max_jerk")
+    jerk = np.maximum(limit[1:], limit[:-1]) * (1.0 + TOLERANCES["plan limits"].relative)
+    cases = (
+        ("jerk", np.diff(a) / dt, jerk, wide_a / dt, 3),
+        ("velocity", np.diff(v) - dt * (a[1:] + a[:-1]) / 2, jerk * dt**2 / 4, wide_v + dt * wide_a, 1),
+        ("position", np.diff(p) - dt * (v[1:] + v[:-1]) / 2, jerk * dt**3 / 12, wide_p + dt * wide_v, 0),
+    )
+    found = []
+    for name, step, most, widening, order in cases:
+        bad = ~(np.abs(step) <= most + widening)
+        if name == "position":
+            bad &= ~axis.redefined[1:]
+        text = f"the {name} of the samples changes by more than the jerk limit allows over the cycle"
+        found += axis.findings("sample step", bad, axis.ticks[1:], text, value=np.abs(step), limit=most, order=order)
+    return found
+
+
+def sampled_limits(axis: Axis) -> list[Finding]:
+    """From the samples alone: |v| and |a| are inside the limits in force, or no further out than they must.
+
+    What must be follows from the sample at which the plan took over: |a| may stay as high as it was, and |v| come
+    to what it costs to bring that acceleration to zero.
+    """
+    curves, plan = axis.curves, axis.serving
+    v, a = axis.signals["set_velocity"], axis.signals["set_acceleration"]
+    wide_v, wide_a = sample_tolerance(axis, "set_velocity"), sample_tolerance(axis, "set_acceleration")
+    start = np.maximum(curves.tick[plan] - axis.ticks[0], 0)
+    speed, strength = np.abs(v[start]), np.abs(a[start])
+    gain = strength * strength / (2.0 * curves.jerk[plan])
+    peak = np.where(v[start] * a[start] < 0.0, np.maximum(speed, gain - speed), speed + gain)
+    share = 1.0 + TOLERANCES["plan limits"].relative
+    most_v = np.maximum(curves.velocity[plan], peak) * share
+    most_a = np.maximum(np.maximum(curves.acceleration, curves.deceleration)[plan], strength) * share
+    widening_v = wide_v + wide_v[start] + strength * wide_a[start] / curves.jerk[plan]
+    cases = (("velocity", v, most_v, widening_v, 1), ("acceleration", a, most_a, wide_a + wide_a[start], 2))
+    found = []
+    for name, value, most, widening, order in cases:
+        bad = ~(np.abs(value) <= most + widening)
+        text = f"{name} above the limit in force"
+        found += axis.findings("sampled limit", bad, axis.ticks, text, value=np.abs(value), limit=most, order=order)
+    return found
+
+
+def software_limits(axis: Axis) -> list[Finding]:
+    """The set position is inside the software limits.
+
+    It may be outside while Disabled or Homing and where the coordinate was redefined; from there on it must
+    not go further out, except while a stop brakes.
+    """
+    found, position = [], axis.signals["set_position"]
+    state = axis.signals.get("state", np.zeros(len(position)))
+    # The position of a row is the work of the state one row before.
+    exempt = np.isin(state, MAY_BE_OUTSIDE)
+    free = exempt | np.concatenate([exempt[:1], exempt[:-1]]) | axis.redefined | (axis.ticks == axis.ticks[0])
+    braking = axis.curves.kind[axis.serving] == "stop"
+    widening = sample_tolerance(axis, "set_position")
+    for side, sign in (("min", -1.0), ("max", 1.0)):
+        limit = axis.software_limit(side)
+        if np.isinf(limit):
+            continue
+        beyond = sign * (position - limit)
+        before = np.concatenate([[0.0], beyond[:-1]])
+        was_outside = before > np.concatenate([[0.0], widening[:-1]])
+        held = was_outside & ((beyond <= before + widening) | braking)
+        bad = ~(beyond <= widening) & ~free & ~held
+        text = f"set position beyond the software limit {side}"
+        found += axis.findings(
+            "software limit",
+            bad,
+            axis.ticks,
+            text,
+            value=position,
+            limit=np.full(len(position), limit),
+            order=0,
+        )
+    return found

@@ -1,0 +1,100 @@
+"""`verify`: all rules over all axes; `assert_valid` for tests."""
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Final
+
+from motionlayer.verify import _bounds, _plans, _samples
+from motionlayer.verify._axis import Axis
+from motionlayer.verify._commands import command_rules
+from motionlayer.verify._lives import Life, life_findings, read_lives
+from motionlayer.verify._report import Finding, Report
+from motionlayer.verify._resolve import not_judged, unresolved_axis, unresolved_trace
+from motionlayer.verify._states import state_rules
+from motionlayer.verify._wellformed import malformed
+
+if TYPE_CHECKING:
+    from motionlayer.record import Trace
+
+RULES: Final[tuple[Callable[[Axis], list[Finding]], ...]] = (
+    _plans.machine_maxima,
+    _plans.pieces_continuous,
+    _plans.handovers,
+    _plans.ends,
+    _bounds.planned_limits,
+    _samples.set_values,
+    _samples.set_jerk,
+    _samples.actual_position,
+    _samples.limit_signals,
+    _samples.override,
+    _samples.differences,
+    _samples.sampled_limits,
+    _samples.software_limits,
+)
+"""Rules over one axis whose plans follow one another."""
+
+
+def verify(trace: "Trace") -> Report:
+    """Judge a trace from its samples, plans, events and header alone; its stored hash is not looked at.
+
+    An incomplete trace is judged to its end, and named so in the notes.
+
+    Args:
+        trace: any trace, also one from another installation.
+
+    Returns:
+        The report; `ok` if everything was judged and nothing is wrong.
+    """
+    notes = [] if trace.complete else ["the trace is incomplete; it was judged to where it ends"]
+    lives, wrong = read_lives(trace.events)
+    findings = life_findings(trace, wrong)
+    refused = unresolved_trace(trace)
+    judged: list[str] = []
+    for name in [] if refused else trace.header["machine"]["axis"]:
+        reasons = unresolved_axis(trace, name)
+        refused += reasons
+        if not reasons:
+            judged.append(name)
+            notes += not_judged(trace, name)
+            findings += _judge(trace, name, lives)
+    return Report(
+        findings=tuple(findings),
+        refused=tuple(refused),
+        notes=tuple(notes),
+        axes=tuple(judged),
+        ticks=len(trace.ticks),
+        plans=sum(plan.axis in judged for plan in trace.plans),
+        commands=len(lives),
+    )
+
+
+def _judge(trace: "Trace", name: str, lives: Mapping[int, Life]) -> list[Finding]:
+    """Judge one axis; rules that evaluate plans are left out where these make no sense."""
+    broken = [
+        Finding(name, plan.tick, plan.tick * trace.base_cycle, "plan", text)
+        for plan in trace.plans
+        if plan.axis == name and (text := malformed(plan))
+    ]
+    if broken:
+        return broken
+    axis = Axis.of(trace, name)
+    disorder = _plans.succession(axis)
+    if disorder:
+        return disorder
+    findings = [finding for rule in RULES for finding in rule(axis)]
+    return [*findings, *state_rules(axis, lives), *command_rules(axis, lives)]
+
+
+def assert_valid(trace: "Trace") -> None:
+    """Raise AssertionError with the text of the report unless `verify` finds the trace valid.
+
+    The helper for tests that move something.
+
+    Args:
+        trace: any trace.
+
+    Raises:
+        AssertionError: something is wrong, or could not be judged.
+    """
+    report = verify(trace)
+    if not report.ok:
+        raise AssertionError(str(report))

@@ -1,0 +1,142 @@
+"""Programs that the tests run; most of them are wrong in some way."""
+
+import asyncio
+import json
+import os
+import signal
+import sys
+import time
+
+from motionlayer import Simulation
+from motionlayer.event import Event, Kind, Level
+
+
+async def main(run: Simulation) -> None:
+    axis = run.axes["X"]
+    await axis.enable()
+    await axis.move_absolute(300.0)
+    print("there", axis.set_position)
+
+
+async def noisy(run: Simulation) -> None:
+    for tick in range(7):
+        run.events.add(Event(tick, Level.WARNING, Kind.MESSAGE, "X", f"message {tick}"))
+    await run.sleep(0.01)
+
+
+async def raising(run: Simulation) -> None:
+    await run.axes["X"].enable()
+    move = run.axes["X"].move_absolute(300.0)
+    await run.sleep(0.05)
+    assert move.busy
+    raise ValueError("boom")
+
+
+async def raising_in_library(run: Simulation) -> None:
+    await run.sleep(0.001)
+    json.loads("nonsense")
+
+
+async def foreign(run: Simulation) -> None:
+    await run.axes["X"].enable()
+    await asyncio.sleep(1)
+
+
+async def refused(run: Simulation) -> None:
+    await run.axes["X"].move_absolute(10.0)
+
+
+async def in_error(run: Simulation) -> None:
+    axis = run.axes["X"]
+    await axis.enable()
+    await axis.move_velocity(500.0).settled()  # until the software limit
+    await axis.move_absolute(0.0)  # in error
+
+
+async def exiting(run: Simulation) -> None:
+    await run.sleep(0.01)
+    sys.exit(7)
+
+
+async def stuck(run: Simulation) -> None:
+    await run.sleep(0.01)
+    while True:
+        pass
+
+
+async def blocking(run: Simulation) -> None:
+    await run.sleep(0.01)
+    time.sleep(1000.0)  # noqa: ASYNC251 - the wrong call
+
+
+async def stubborn(run: Simulation) -> None:
+    await run.sleep(0.01)
+    while True:
+        try:
+            while True:
+                pass
+        except BaseException:  # noqa: BLE001, S110
+            pass
+
+
+async def interrupting(run: Simulation) -> None:
+    await run.sleep(0.01)
+    os.kill(os.getpid(), signal.SIGINT)
+    await run.sleep(1000.0)
+
+
+async def interrupting_at_once(run: Simulation) -> None:
+    os.kill(os.getpid(), signal.SIGINT)
+    await run.sleep(1000.0)
+
+
+async def interrupting_between(run: Simulation) -> None:
+    def kill(event: Event) -> None:
+        if event.kind is Kind.DONE:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    run.events.listen(kill)
+    await run.axes["X"].enable()
+    await run.sleep(1000.0)
+
+
+async def hanging_predicate(run: Simulation) -> None:
+    def hang() -> bool:
+        while True:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    await run.until(hang)
+
+
+async def breaking_the_cycle(run: Simulation) -> None:
+    def broken(event: Event) -> None:
+        if event.kind is Kind.DONE:
+            raise RuntimeError("broken listener")
+
+    run.events.listen(broken)
+    await run.axes["X"].enable()
+
+
+async def shuttle(run: Simulation) -> None:
+    axis = run.axes["X"]
+    await axis.enable()
+    while True:
+        await axis.move_absolute(400.0)
+        await axis.move_absolute(0.0)
+
+
+async def workers_failing(run: Simulation) -> None:
+    async def worker(number: int) -> None:
+        raise ValueError(f"worker {number}")
+
+    for number in range(7):
+        run.start(worker(number), f"worker_{number}")
+    await run.sleep(0.01)
+
+
+async def without_run() -> None:
+    pass
+
+
+def not_async(run: Simulation) -> None:
+    raise AssertionError(run)

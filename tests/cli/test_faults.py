@@ -1,0 +1,122 @@
+"""What is not the fault of a program: our own, and that of files."""
+
+import os
+from pathlib import Path
+
+import click
+import pytest
+from click.testing import CliRunner
+
+from motionlayer.cli import ExitCode
+from motionlayer.cli._main import _Group
+from motionlayer.record import Trace
+from tests.cli.support import MACHINE, call, program, python, recorded
+
+
+def test_a_fault_in_a_step_has_its_own_code(machine: Path) -> None:
+    done = call("run", machine, *program("breaking_the_cycle"), "--trace", "run.trace")
+    assert done.exit_code == ExitCode.FAULT
+    assert done.stderr.startswith("Error: a fault of motionlayer itself in tick 1: broken listener; ")
+    assert "RuntimeError: broken listener" in done.stderr
+    trace = recorded(Path("run.trace"), 1)
+    assert done.stdout.splitlines()[-1] == f"trace hash: {trace.hash}"
+
+
+def test_what_no_command_expects_has_the_same_code() -> None:
+    @click.command()
+    def broken() -> None:
+        raise LookupError("nobody expects this")
+
+    done = CliRunner().invoke(_Group(commands=[broken]), ["broken"])
+    assert done.exit_code == ExitCode.FAULT
+    assert done.stderr.startswith("Error: a fault of motionlayer itself; please report it with these lines:\nTraceback")
+    assert done.stderr.endswith("LookupError: nobody expects this\n")
+
+
+@pytest.mark.parametrize("option", ["--trace", "--plot"])
+def test_no_folder_to_write_to(machine: Path, option: str) -> None:
+    done = call("run", machine, "--time", 1, option, "no/folder.html")
+    assert done.exit_code == ExitCode.TRACE
+    assert done.stderr == "Error: no/folder.html cannot be written: there is no folder no\n"
+
+
+def test_a_folder_instead_of_a_file(machine: Path) -> None:
+    Path("run.trace").mkdir()
+    done = call("run", machine, "--time", 1, "--trace", "run.trace")
+    assert done.exit_code == ExitCode.TRACE
+    assert done.stderr == "Error: run.trace cannot be written: it is a folder\n"
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_a_full_disk(machine: Path) -> None:
+    done = call("run", machine, "--time", 1, "--trace", "/dev/full")
+    assert done.exit_code == ExitCode.TRACE
+    assert "/dev/full: the trace cannot be written: No space left on device" in done.stderr
+
+
+def test_a_disk_that_is_full_in_the_middle(machine: Path) -> None:
+    limited = (
+        "import resource, sys\nresource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000))\n"
+        "from motionlayer.cli import main\nmain()"
+    )
+    options = (*program("shuttle"), "--time", "6", "--trace", "run.trace")
+    plain = {"MOTIONLAYER_KERNELS": "plain", "PYTHONDONTWRITEBYTECODE": "1"}  # nothing else is written
+    done = python("-c", limited, "run", str(machine), *options, **plain)
+    assert done.returncode == ExitCode.TRACE, done
+    (error,) = done.stderr.splitlines()
+    assert error.startswith("Error: run.trace: the trace cannot be written: ")
+    assert "hash" not in done.stdout
+    trace = Trace.load("run.trace")
+    assert not trace.complete
+    assert trace.ticks.tolist() == list(range(len(trace.ticks)))
+    assert len(trace.ticks)
+
+
+@pytest.mark.parametrize("command", ["verify", "plot"])
+def test_what_is_no_trace(machine: Path, command: str) -> None:
+    for file, said in [
+        ("gone.trace", "No such file"),
+        (machine, "not a trace of motionlayer"),
+        (".", "Is a directory"),
+    ]:
+        done = call(command, file, *(["-o", "page.html"] if command == "plot" else []))
+        assert done.exit_code == ExitCode.TRACE
+        assert done.stdout == ""
+        assert done.stderr.startswith("Error: ")
+        assert said in done.stderr
+
+
+def test_a_trace_that_is_not_valid(machine: Path) -> None:
+    call("run", machine, *program("main"), "--trace", "run.trace")
+    trace = Trace.load("run.trace")
+    positions = trace["X.set_position"].copy()
+    positions[100] += 1.0
+    trace.replace({"X.set_position": positions}).save("wrong.trace")
+    done = call("verify", "wrong.trace")
+    assert (done.exit_code, done.stdout.split(":")[0]) == (ExitCode.FAILED, "NOT VALID")
+
+
+def test_a_trace_that_cannot_be_judged(machine: Path) -> None:
+    machine.write_text(MACHINE + '[trace]\nsignals = ["X.state"]\n', encoding="utf-8")
+    call("run", machine, "--time", 0.1, "--trace", "run.trace")
+    done = call("verify", "run.trace")
+    assert (done.exit_code, done.stdout.split(":")[0]) == (ExitCode.TRACE, "REFUSED")
+
+
+def test_a_page_never_replaces_its_trace(machine: Path) -> None:
+    call("run", machine, "--time", 0.1, "--trace", "run.html")
+    done = call("plot", "run.html")
+    assert done.exit_code == ExitCode.USAGE
+    assert "run.html would be overwritten" in done.stderr
+    recorded(Path("run.html"), 100)
+
+
+def test_a_run_of_which_there_is_nothing_to_draw(machine: Path) -> None:
+    done = call("run", machine, *program("interrupting_at_once"), "--plot", "run.html")
+    assert done.exit_code == ExitCode.INTERRUPTED
+    assert "holds no rows of an axis" in done.stderr
+    assert not os.path.lexists("run.html")
+
+
+def test_bench_hands_over_its_exit_code() -> None:
+    assert call("bench", "no_such_group").exit_code == ExitCode.USAGE

@@ -1,0 +1,34 @@
+"""Ctrl-C. Programs and listeners raise the signal themselves, so that it comes in a known tick."""
+
+import signal
+from pathlib import Path
+
+import pytest
+
+from motionlayer.cli import ExitCode
+from tests.cli.support import call, program, recorded
+
+
+@pytest.mark.parametrize(
+    ("name", "ticks"),
+    [
+        ("interrupting", 10),  # in the program, at once: the tick has not been recorded yet
+        ("interrupting_between", 256),  # in a step of the runtime: when the run next looks
+        ("hanging_predicate", 1),  # not even then: the second one counts at once
+    ],
+)
+def test_an_interrupted_run_ends_in_order(machine: Path, name: str, ticks: int) -> None:
+    before = signal.getsignal(signal.SIGINT)
+    done = call("run", machine, *program(name), "--trace", "run.trace")
+    assert done.exit_code == ExitCode.INTERRUPTED
+    assert done.stderr.startswith("Error: interrupted at ")
+    assert "Traceback" not in done.stderr
+    trace = recorded(Path("run.trace"), ticks)
+    assert done.stdout.splitlines()[-1] == f"trace hash: {trace.hash}"
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_an_interrupt_while_loading(machine: Path) -> None:
+    Path("p.py").write_text("import os, signal\nos.kill(os.getpid(), signal.SIGINT)\n", encoding="utf-8")
+    done = call("run", machine, "--program", "p.py")
+    assert (done.exit_code, done.stderr) == (ExitCode.INTERRUPTED, "Error: interrupted\n")

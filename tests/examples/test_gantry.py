@@ -1,0 +1,30 @@
+"""The gantry of the demo: works off its list, and its trace stands up to verify."""
+
+import csv
+from pathlib import Path
+
+import pytest
+
+from motionlayer import Machine, Simulation
+from motionlayer.verify import assert_valid
+
+FOLDER = Path(__file__).resolve().parent.parent.parent / "examples" / "gantry"
+
+
+def test_the_gantry_visits_every_position_of_its_list(capsys: pytest.CaptureFixture[str]) -> None:
+    with Simulation(Machine.load(FOLDER / "machine.toml")) as run:
+        run.run()
+    assert not run.failures
+    trace = run.trace
+    assert_valid(trace)
+    low = trace["Z.set_position"] < 70.0
+    spots = {
+        (round(float(x), 3), round(float(y), 3), round(float(z), 3))
+        for x, y, z in zip(*(trace[f"{axis}.set_position"][low] for axis in "XYZ"), strict=True)
+    }
+    with (FOLDER / "positions.csv").open(newline="") as file:
+        rows = [[float(value) for value in row] for row in list(csv.reader(file))[1:]]
+    assert len(rows) == 200
+    for row in rows:
+        assert {tuple(row[:3]), tuple(row[3:])} <= spots
+    assert "200 parts in" in capsys.readouterr().out

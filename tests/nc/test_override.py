@@ -1,0 +1,166 @@
+"""The override scales the velocity of every motion; 0 holds the axis without ending its command."""
+
+import numpy as np
+import pytest
+
+from motionlayer import AxisState
+from tests.machines import assert_smooth, finish, follow, ready
+
+PHASES = [0, 1, 20, 60, 100, 300, 650, 680, 720, 745]
+
+
+@pytest.mark.parametrize("tick", PHASES)
+@pytest.mark.parametrize("factor", [0.0, 0.01, 0.5, 1.0])
+def test_in_every_phase_of_a_move_the_target_is_still_reached(tick: int, factor: float) -> None:
+    run, x = ready()
+    move = x.move_absolute(300.0)
+    rows = [np.empty((0, 3))]
+    run.step(tick)
+    assert x.set_override(factor).done
+    assert x.override == factor
+    pause = x.passes(1000.0)  # never: only to follow a while
+    samples = []
+    for _ in range(400):
+        samples.append((x.set_position, x.set_velocity, x.set_acceleration))
+        run.step()
+    assert pause.busy
+    rows.append(np.array(samples))
+    if factor == 0.0:
+        assert x.set_velocity == 0.0
+        if tick < 745:
+            assert move.busy
+            assert x.state is AxisState.DISCRETE_MOTION
+    x.set_override(1.0)
+    rows.append(follow(run, x, move))
+    assert x.set_position == 300.0
+    assert move.done
+    assert_smooth(np.vstack(rows))
+
+
+@pytest.mark.parametrize("factor", [0.01, 0.3, 1.0])
+def test_endless_motion_takes_the_scaled_velocity_and_returns(factor: float) -> None:
+    run, x = ready(software_limit_max=None)
+    move = x.move_velocity(400.0)
+    run.step(300)
+    assert x.set_velocity == 400.0
+    x.set_override(factor)
+    assert move.in_velocity == (factor == 1.0)
+    run.step(400)
+    assert x.set_velocity == pytest.approx(400.0 * factor, rel=1e-12)
+    assert move.in_velocity
+    x.set_override(1.0)
+    run.step(400)
+    assert x.set_velocity == 400.0
+    assert move.busy
+
+
+def test_override_zero_holds_an_endless_motion() -> None:
+    run, x = ready()
+    move = x.move_velocity(400.0)
+    run.step(300)
+    x.set_override(0.0)
+    run.step(300)
+    assert (x.set_velocity, x.set_acceleration) == (0.0, 0.0)
+    assert x.state is AxisState.CONTINUOUS_MOTION
+    assert move.busy
+    assert move.active
+    x.set_override(1.0)
+    run.step(50)
+    assert x.set_velocity > 0.0
+
+
+def test_a_command_under_override_zero_waits() -> None:
+    run, x = ready()
+    x.set_override(0.0)
+    move = x.move_absolute(50.0)
+    run.step(100)
+    assert move.busy
+    assert move.active
+    assert x.set_position == 0.0
+    x.set_override(0.2)
+    _, v, _ = follow(run, x, move).T
+    assert v.max() <= 100.0 * (1.0 + 1e-12)
+    assert x.set_position == 50.0
+
+
+@pytest.mark.parametrize("name", ["halt", "stop", "disable"])
+def test_braking_is_not_scaled(name: str) -> None:
+    ticks = []
+    for factor in (1.0, 0.25):
+        run, x = ready(software_limit_max=None)
+        x.set_override(factor)
+        x.move_velocity(100.0 / factor)
+        run.step(400)
+        assert x.set_velocity == pytest.approx(100.0, rel=1e-12)
+        ticks.append(finish(run, getattr(x, name)()))
+    assert ticks[0] == ticks[1]
+
+
+@pytest.mark.parametrize("name", ["halt", "stop", "disable"])
+def test_a_held_axis_can_be_halted_stopped_disabled(name: str) -> None:
+    run, x = ready()
+    move = x.move_absolute(300.0)
+    run.step(100)
+    x.set_override(0.0)
+    run.step(300)
+    brake = getattr(x, name)()
+    assert move.aborted
+    finish(run, brake)
+    assert brake.done
+    x.set_override(1.0)
+    run.step(100)
+    assert x.set_velocity == 0.0
+    assert x.state is (AxisState.DISABLED if name == "disable" else AxisState.STANDSTILL)
+
+
+def test_the_same_value_changes_nothing() -> None:
+    run, x = ready()
+    move = x.move_absolute(300.0)
+    run.step(100)
+    before = x._store.snapshot().table.tobytes()
+    assert x.set_override(1.0).done
+    assert x._store.snapshot().table.tobytes() == before
+    assert move.busy
+
+
+def test_the_override_of_the_last_call_of_a_tick_holds() -> None:
+    run, x = ready(software_limit_max=None)
+    x.move_velocity(200.0)
+    for factor in (0.0, 0.7, 0.0, 0.5):
+        x.set_override(factor)
+    run.step(300)
+    assert x.set_velocity == 100.0
+
+
+def test_override_changing_in_every_tick_stays_within_limits() -> None:
+    run, x = ready()
+    move = x.move_absolute(300.0)
+    samples = []
+    for tick in range(600):
+        x.set_override((tick * 37 % 101) / 100)
+        samples.append((x.set_position, x.set_velocity, x.set_acceleration))
+        run.step()
+        if not move.busy:
+            break
+    x.set_override(1.0)
+    tail = follow(run, x, move)
+    assert_smooth(np.vstack([np.array(samples), tail]))
+    assert x.set_position == 300.0
+
+
+@pytest.mark.parametrize("factor", [5e-324, 1e-310, 1e-300, 1e-12])
+def test_the_smallest_overrides_do_not_harm(factor: float) -> None:
+    run, x = ready()
+    move = x.move_absolute(300.0)
+    run.step(50)
+    command = x.set_override(factor)
+    run.step(500)
+    assert x.error is None
+    assert move.busy
+    if command.done:
+        assert abs(x.set_velocity) <= 1e-9
+    else:
+        assert x.override == 1.0
+    x.set_override(1.0)
+    finish(run, move)
+    assert x.set_position == 300.0

@@ -1,0 +1,1 @@
+# ruff: noqa: A005 - tests.profile, never top level

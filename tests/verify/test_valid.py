@@ -1,0 +1,117 @@
+"""What is right is found right."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from motionlayer.verify import assert_valid, verify
+
+from .bench import Bench, changed, join
+from .scenarios import SIZES, axis, everything, quantised, recorded
+
+OPERATIONS = st.lists(
+    st.tuples(
+        st.sampled_from(["move", "move_velocity", "stop", "limit"]),
+        st.floats(-1.0, 1.0),
+        st.one_of(st.none(), st.integers(0, 60)),
+    ),
+    min_size=1,
+    max_size=8,
+)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_sound_trace_is_valid(size: str) -> None:
+    report = verify(recorded(size))
+    assert report.ok, str(report)
+    assert report.axes == ("X",)
+    assert (report.ticks, report.plans, report.commands) == (len(recorded(size).ticks), 12, 11)
+    assert report.notes == ()
+
+
+def test_a_quantised_trace_is_valid() -> None:
+    assert_valid(quantised())
+
+
+def test_two_axes_are_judged_side_by_side() -> None:
+    x = everything("mm")
+    y = axis("µm", name="Y", first_command=100)
+    y.enable()
+    y.run(x.tick - y.tick)
+    report = verify(join([x, y]))
+    assert report.ok, str(report)
+    assert report.axes == ("X", "Y")
+
+
+def test_an_incomplete_trace_is_judged_and_named() -> None:
+    bench = everything("mm")
+    report = verify(join([bench], whole=False))
+    assert report.ok
+    assert any("incomplete" in note for note in report.notes)
+    bench.rows[100][0] += 1e-6
+    assert verify(join([bench], whole=False)).findings
+
+
+def _drive(bench: Bench, operation: str, share: float, ticks: int | None) -> None:
+    maxima = bench.maxima
+    if operation == "limit":
+        factor = 0.05 + abs(share)
+        bench.limit(
+            velocity=maxima.velocity * min(1.0, factor),
+            acceleration=maxima.acceleration * min(1.0, 2 * factor),
+            jerk=maxima.jerk * min(1.0, factor),
+        )
+    elif operation == "stop":
+        bench.stop(state=6)  # a halt, which does not lock
+    elif operation == "move":
+        bench.move(bench.start + share * maxima.velocity * 0.1)
+    else:
+        bench.move_velocity(share * bench.limits.velocity)
+    bench.run(ticks if ticks is not None or operation != "limit" else 0)
+
+
+@settings(max_examples=60, deadline=None)
+@given(OPERATIONS, st.sampled_from(sorted(SIZES)))
+def test_any_sound_run_is_valid(operations: list[tuple[str, float, int | None]], size: str) -> None:
+    bench = axis(size)
+    bench.soft = (None, None)
+    bench.enable()
+    bench.run(1)
+    for operation, share, ticks in operations:
+        _drive(bench, operation, share, ticks)
+    bench.run(2)
+    assert_valid(bench.trace())
+
+
+def test_the_plan_covers_times_beyond_its_last_piece() -> None:
+    bench = axis("mm")
+    bench.enable()
+    bench.run(1)
+    bench.move_velocity(10.0)
+    bench.run(5_000)
+    trace = bench.trace()
+    assert np.ptp(trace["X.set_position"]) > 40.0
+    assert_valid(trace)
+
+
+def test_a_plan_recorded_again_on_its_way_is_valid() -> None:
+    trace = recorded("mm")
+    plan = trace.plans[1]
+    again = replace(plan, tick=plan.tick + 37, offset=37 * trace.base_cycle)
+    assert_valid(changed(trace, plans=(*trace.plans[:2], again, *trace.plans[2:])))
+
+
+def test_a_plan_that_takes_over_inside_a_cycle_is_valid() -> None:
+    trace = recorded("mm")
+    plan, k = trace.plans[1], 2
+    time = float(plan.pieces[k, 0])
+    cycles = int(time / trace.base_cycle)
+    rest = plan.pieces[k:] - [time, 0.0, 0.0, 0.0, 0.0]
+    later = replace(plan, tick=plan.tick + cycles, offset=cycles * trace.base_cycle - time, pieces=rest)
+    assert later.offset < 0.0
+    assert_valid(changed(trace, plans=(*trace.plans[:2], later, *trace.plans[2:])))
+    beside = replace(later, pieces=later.pieces + np.array([0.0, 1e-9, 0.0, 0.0, 0.0]))
+    assert not verify(changed(trace, plans=(*trace.plans[:2], beside, *trace.plans[2:]))).ok
