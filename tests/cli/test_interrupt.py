@@ -1,6 +1,7 @@
 """Ctrl-C. Programs and listeners raise the signal themselves, so that it comes in a known tick."""
 
 import signal
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -28,6 +29,15 @@ def test_an_interrupted_run_ends_in_order(machine: Path, name: str, ticks: int) 
     assert signal.getsignal(signal.SIGINT) is before
 
 
+@pytest.fixture
+def interruptible() -> Iterator[None]:
+    """Let Ctrl-C count, also where the tests run as a job that ignores it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("interruptible")
 def test_an_interrupt_while_loading(machine: Path) -> None:
     Path("p.py").write_text("import os, signal\nos.kill(os.getpid(), signal.SIGINT)\n", encoding="utf-8")
     done = call("run", machine, "--program", "p.py")

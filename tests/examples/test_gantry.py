@@ -1,6 +1,9 @@
 """The gantry of the demo: works off its list, and its trace stands up to verify."""
 
 import csv
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -28,3 +31,23 @@ def test_the_gantry_visits_every_position_of_its_list(capsys: pytest.CaptureFixt
     for row in rows:
         assert {tuple(row[:3]), tuple(row[3:])} <= spots
     assert "200 parts in" in capsys.readouterr().out
+
+
+def short_run(tmp_path: Path, *options: str, **environment: str) -> str:
+    """Return the last line of the first seconds of the demo."""
+    command = [sys.executable, "-m", "motionlayer", "run", str(FOLDER / "machine.toml"), "--time", "6", *options]
+    done = subprocess.run(
+        command, cwd=tmp_path, env=os.environ | environment, capture_output=True, text=True, check=True
+    )
+    return done.stdout.splitlines()[-1]
+
+
+def test_the_hash_of_the_demo_is_the_same_however_it_is_run(tmp_path: Path) -> None:
+    lines = {
+        short_run(tmp_path, "--hash", PYTHONHASHSEED="1"),
+        short_run(tmp_path, "--hash", PYTHONHASHSEED="2"),
+        short_run(tmp_path, "--hash", MOTIONLAYER_KERNELS="plain"),
+        short_run(tmp_path, "--trace", "a.trace", "--plot", "a.html"),
+    }
+    assert len(lines) == 1
+    assert lines.pop().startswith("trace hash: ")

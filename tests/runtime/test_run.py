@@ -1,6 +1,7 @@
 """Beginning and end of a run (rule 7), the edge of the runtime, and the watchdog (rule 6)."""
 
 import contextlib
+import signal
 import threading
 import time
 
@@ -157,6 +158,16 @@ def check_stuck(run: Simulation, stuck: ProgramStuck) -> None:
 def test_a_program_that_does_not_yield_ends_the_run_with_its_stack() -> None:
     run = Simulation(machine(), patience=0.2)
     check_stuck(run, stuck_in(run))
+
+
+def test_a_stuck_program_where_interrupts_are_ignored() -> None:
+    """As in a job that a shell runs in the background."""
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        run = Simulation(machine(), patience=0.2)
+        check_stuck(run, stuck_in(run))
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def test_a_stuck_program_in_another_thread() -> None:

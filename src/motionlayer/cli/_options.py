@@ -1,12 +1,36 @@
-"""What values of options must be, where click has no type for it."""
+"""The options of `run`, and what values must be where click has no type for it."""
 
 import math
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 import click
 
 PAGE_SUFFIXES: Final = (".html", ".htm")
+
+
+class Options(NamedTuple):
+    """What `motionlayer run` was asked for.
+
+    Attributes:
+        machine: the machine file.
+        program: `FILE[:NAME]`, in the place of the programs of the machine file.
+        time: s of the run.
+        seed: in the place of the seed of the machine file.
+        trace: file for the trace.
+        hash: take the hash of the run.
+        plot: file for the page.
+        patience: s of wall time until a program counts as stuck.
+    """
+
+    machine: Path
+    program: str | None
+    time: float | None
+    seed: int | None
+    trace: Path | None
+    hash: bool
+    plot: Path | None
+    patience: float | None
 
 
 def seconds(_context: click.Context, _option: click.Parameter, value: float | None) -> float | None:

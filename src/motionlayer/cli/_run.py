@@ -1,35 +1,10 @@
 """`motionlayer run`: its options."""
 
 from pathlib import Path
-from typing import NamedTuple
 
 import click
 
-from motionlayer.cli._options import page, seconds
-
-
-class Options(NamedTuple):
-    """What `motionlayer run` was asked for.
-
-    Attributes:
-        machine: the machine file.
-        program: `FILE[:NAME]`, in the place of the programs of the machine file.
-        time: s of the run.
-        seed: in the place of the seed of the machine file.
-        trace: file for the trace.
-        hash: take the hash of the run.
-        plot: file for the page.
-        patience: s of wall time until a program counts as stuck.
-    """
-
-    machine: Path
-    program: str | None
-    time: float | None
-    seed: int | None
-    trace: Path | None
-    hash: bool
-    plot: Path | None
-    patience: float | None
+from motionlayer.cli._options import Options, page, seconds
 
 
 @click.command(short_help="Run a machine in simulation.")

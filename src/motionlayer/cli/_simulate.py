@@ -17,8 +17,8 @@ from motionlayer.cli._exit import ExitCode, Stop, complain
 from motionlayer.cli._failure import place, program_failure
 from motionlayer.cli._files import draw, load_machine, refuse_overwriting
 from motionlayer.cli._interrupt import orderly
+from motionlayer.cli._options import Options
 from motionlayer.cli._progress import Progress
-from motionlayer.cli._run import Options
 from motionlayer.cli._summary import lines_of, summary
 from motionlayer.cli._tally import Tally
 from motionlayer.machine import (

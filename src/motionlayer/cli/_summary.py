@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from motionlayer.cli._run import Options
+from motionlayer.cli._options import Options
 from motionlayer.cli._tally import Tally
 from motionlayer.event import Level
 from motionlayer.machine import Simulation

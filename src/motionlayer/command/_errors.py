@@ -8,7 +8,6 @@ class ErrorId(enum.IntEnum):
     """What a command or an axis reports."""
 
     INTERNAL = 0x4000
-    SET_POSITION_IN_MOTION = 0x4220
     VELOCITY = 0x4221
     TARGET_OUTSIDE_LIMITS = 0x4222
     JERK = 0x422E
@@ -25,7 +24,6 @@ class ErrorId(enum.IntEnum):
     MAXIMUM_PASSED = 0x4463
     CANNOT_START = 0x4B01
     PARAMETER = 0x4B06
-    HOMING_FAILED = 0x4B0A
 
 
 class ErrorText(NamedTuple):
@@ -37,7 +35,6 @@ class ErrorText(NamedTuple):
 
 ERRORS: Final[dict[ErrorId, ErrorText]] = {
     ErrorId.INTERNAL: ErrorText("internal error", "please report it with the input that the message holds"),
-    ErrorId.SET_POSITION_IN_MOTION: ErrorText("position set while the axis moves", "wait for standstill"),
     ErrorId.VELOCITY: ErrorText("velocity not positive or above the maximum", "see max_velocity"),
     ErrorId.TARGET_OUTSIDE_LIMITS: ErrorText("target outside the software limits", "see software_limit_min/max"),
     ErrorId.JERK: ErrorText("jerk not positive or above the maximum", "see max_jerk"),
@@ -57,5 +54,4 @@ ERRORS: Final[dict[ErrorId, ErrorText]] = {
     ErrorId.MAXIMUM_PASSED: ErrorText("maximum software limit reached in motion", "reset, then move away from it"),
     ErrorId.CANNOT_START: ErrorText("the axis cannot start this in its state", "reset an error; wait for homing"),
     ErrorId.PARAMETER: ErrorText("parameter out of range", "see the range in the message"),
-    ErrorId.HOMING_FAILED: ErrorText("homing failed", "see the reference switch and the direction of the search"),
 }

@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from motionlayer._kernel import kernel
 from motionlayer.store import Q, Store
 
-SET_P: Final = int(Q.SET_P)
-ACTUAL_P: Final = int(Q.ACTUAL_P)
-SHIFT: Final = int(Q.SHIFT)
-ENABLE: Final = int(Q.ENABLE)
-READY: Final = int(Q.READY)
-HOME_INPUT: Final = int(Q.HOME_INPUT)
-HOME_LATCH: Final = int(Q.HOME_LATCH)
+SET_P: Final = Q.SET_P
+ACTUAL_P: Final = Q.ACTUAL_P
+SHIFT: Final = Q.SHIFT
+ENABLE: Final = Q.ENABLE
+READY: Final = Q.READY
+HOME_INPUT: Final = Q.HOME_INPUT
+HOME_LATCH: Final = Q.HOME_LATCH
 
 
 class ReferenceSwitch(NamedTuple):

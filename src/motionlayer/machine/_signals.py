@@ -36,7 +36,7 @@ def signals_of(description: Description, store: Store) -> list[Signal]:
             name = f"{axis}.{signal}"
             if any(fnmatchcase(name, pattern) for pattern in description.trace.signals):
                 unit = "1" if per is None else entry.unit + per
-                chosen.append(Signal(name, unit, int(row) * columns + column, _resolution(description, name)))
+                chosen.append(Signal(name, unit, row * columns + column, _resolution(description, name)))
     return chosen
 
 

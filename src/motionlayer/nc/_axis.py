@@ -162,6 +162,10 @@ class Axis(AxisCore):
         if not math.isfinite(place):
             return self._refuse(command, Refusal(ErrorId.TARGET_NOT_FINITE, f"position = {place}"))
         self._accept(command, f"passes(position={place})")
+        if self.set_position == place:
+            command.end_time = self._store.tick * self._store.dt
+            self._end(command)
+            return command
 
         def passed(early: float) -> None:
             command.end_time = self._store.tick * self._store.dt - early
@@ -236,7 +240,7 @@ class Axis(AxisCore):
         if limits is None:
             return None
         least = least_jerk(self.set_velocity, self.set_acceleration, self.config.maximum)
-        return limits._replace(jerk=max(limits.jerk, least))
+        return limits if least <= limits.jerk else limits._replace(jerk=least)
 
     def _brake(
         self, name: str, kind: JobKind, event: AxisEvent, deceleration: float | None, jerk: float | None

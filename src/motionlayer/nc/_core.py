@@ -1,13 +1,15 @@
-"""The inside of an axis: state, job, plan, and what the cycle brings to it."""
+"""The inside of an axis: job, plan, and what the cycle brings to it."""
 
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-from motionlayer.command import ERRORS, Command, ErrorId, Ledger, MotionError
-from motionlayer.event import Event, EventLog, Kind, Level
+from motionlayer.command import ErrorId, Ledger, MotionError
+from motionlayer.event import EventLog, Kind, Level
+from motionlayer.nc._base import AxisBase
 from motionlayer.nc._config import AxisConfig
+from motionlayer.nc._limits import bad_target, limit_text, overrun
 from motionlayer.nc._motion import SCALED, AxisCommand, Job, JobKind, Refusal
-from motionlayer.nc._states import NEED_POWER, TRANSITIONS, AxisEvent, AxisState
+from motionlayer.nc._states import AxisEvent, AxisState
 from motionlayer.profile import Limits, PlanError, Profile, plan_position, plan_stop, plan_velocity, rest_at
 from motionlayer.store import Ended, Q, Store
 
@@ -35,8 +37,8 @@ class AxisPlan(NamedTuple):
     profile: Profile
 
 
-class AxisCore:
-    """State, job and plan of one axis; `Axis` adds the commands.
+class AxisCore(AxisBase):
+    """Job and plan of one axis; `Axis` adds the commands.
 
     Args:
         config: what the machine description says.
@@ -50,64 +52,15 @@ class AxisCore:
     def __init__(
         self, config: AxisConfig, column: int, store: Store, ledger: Ledger, events: EventLog, plans: list[AxisPlan]
     ) -> None:
-        self.config = config
-        self.name = config.name
-        self.ledger = ledger
+        super().__init__(config, column, store, ledger, events)
         self.plans = plans
         self.homed = False
-        self.error: MotionError | None = None
-        self._column = column
-        self._store = store
-        self._table = store.table
-        self._events = events
-        self._state = AxisState.DISABLED
         self._job: Job | None = None
         self._homing: Homing | None = None
         self._profile = rest_at(self.set_position)
         self._power: AxisCommand | None = None
         self._reset: AxisCommand | None = None
-        self._table[Q.OVERRIDE, column] = 1.0
-        self._table[Q.STATE, column] = self._state
-        self._table[Q.MIN_P, column] = config.limit_min
-        self._table[Q.MAX_P, column] = config.limit_max
         self._set_plan(self.set_position)
-
-    # -- what can be read ----------------------------------------------------------------------------------------
-
-    @property
-    def state(self) -> AxisState:
-        """Present state."""
-        return self._state
-
-    @property
-    def set_position(self) -> float:
-        """Setpoint valid at the present tick, u."""
-        return float(self._table[Q.SET_P, self._column])
-
-    @property
-    def set_velocity(self) -> float:
-        """Setpoint valid at the present tick, u/s."""
-        return float(self._table[Q.SET_V, self._column])
-
-    @property
-    def set_acceleration(self) -> float:
-        """Setpoint valid at the present tick, u/s²."""
-        return float(self._table[Q.SET_A, self._column])
-
-    @property
-    def actual_position(self) -> float:
-        """What the drive reported in this tick, u."""
-        return float(self._table[Q.ACTUAL_P, self._column])
-
-    @property
-    def override(self) -> float:
-        """Factor on the velocity of every motion, 0 to 1."""
-        return float(self._table[Q.OVERRIDE, self._column])
-
-    @property
-    def enabled(self) -> bool:
-        """The drive is ready."""
-        return bool(self._table[Q.READY, self._column])
 
     @property
     def command(self) -> AxisCommand | None:
@@ -148,8 +101,7 @@ class AxisCore:
         elif not self.enabled:
             self._enter(self._step(AxisEvent.OFF))
         if self._power is not None and bool(self._table[Q.ENABLE, self._column]) == self.enabled and not self._job:
-            power, self._power = self._power, None
-            self._end(power)
+            self._power_switched()
         if self._reset is not None and (self._job is None or self._state is not AxisState.ERRORSTOP):
             self._finish_reset()
         if self._homing is not None:
@@ -165,7 +117,10 @@ class AxisCore:
         if job.kind is JobKind.VELOCITY:
             if self._profile.pieces[-1, 2] == 0.0:
                 up = job.target > 0.0
-                self.fault(ErrorId.MAXIMUM_PASSED if up else ErrorId.MINIMUM_PASSED, self._limit_text(up=up))
+                self.fault(
+                    ErrorId.MAXIMUM_PASSED if up else ErrorId.MINIMUM_PASSED,
+                    limit_text(self.config, self.set_position, up=up),
+                )
         elif job.kind is JobKind.BRAKE and self._homing is not None:
             self._homing.at_rest()
         elif job.kind is not JobKind.SEARCH:
@@ -218,11 +173,11 @@ class AxisCore:
         state = self._next(event, command)
         if state is None:
             return
-        refusal = self._bad_target(job)
+        refusal = bad_target(self.config, job, self.set_position)
         if refusal is None:
             try:
                 profile = self._planned(job)
-                refusal = self._overrun(job, profile)
+                refusal = overrun(self.config, job, profile, self.set_position)
             except PlanError as error:
                 refusal = Refusal(ErrorId.INTERNAL, str(error))
         if refusal is not None:
@@ -239,8 +194,15 @@ class AxisCore:
     def _request_power(self, *, on: bool) -> None:
         """Ask the drive; nothing to wait for where it is so already."""
         self._table[Q.ENABLE, self._column] = float(on)
-        if self.enabled == on and self._power is not None:
-            power, self._power = self._power, None
+        if self.enabled == on:
+            self._power_switched()
+
+    def _power_switched(self) -> None:
+        """End the command that asked for it; an error that came in between is its end too."""
+        power, self._power = self._power, None
+        if power is not None and self.enabled and self.error is not None:
+            self._fail(power, self.error)
+        elif power is not None:
             self._end(power)
 
     def _at_rest(self, job: Job) -> None:
@@ -279,7 +241,7 @@ class AxisCore:
 
     def _scaled(self, job: Job) -> Limits:
         factor = self.override
-        if job.kind not in SCALED or factor == 0.0:
+        if job.kind not in SCALED or factor in {0.0, 1.0}:
             return job.limits
         return job.limits._replace(velocity=job.limits.velocity * factor)
 
@@ -289,35 +251,6 @@ class AxisCore:
             self._adopt(job, self._planned(job))
         except PlanError as error:
             self.fault(ErrorId.INTERNAL, str(error))
-
-    def _bad_target(self, job: Job) -> Refusal | None:
-        """Tell why a target cannot be commanded, before anything is planned."""
-        low, high, here = self.config.limit_min, self.config.limit_max, self.set_position
-        if job.kind is JobKind.POSITION and not math.isfinite(job.target):
-            return Refusal(ErrorId.TARGET_NOT_FINITE, f"target = {job.target}")
-        if job.kind is JobKind.POSITION and not low <= job.target <= high:
-            unit = self.config.unit
-            return Refusal(ErrorId.TARGET_OUTSIDE_LIMITS, f"target = {job.target}, allowed: {low} to {high} {unit}")
-        if job.kind is JobKind.VELOCITY and here >= high and job.target > 0.0:
-            return Refusal(ErrorId.ABOVE_MAXIMUM, self._limit_text(up=True))
-        if job.kind is JobKind.VELOCITY and here <= low and job.target < 0.0:
-            return Refusal(ErrorId.BELOW_MINIMUM, self._limit_text(up=False))
-        return None
-
-    def _overrun(self, job: Job, profile: Profile) -> Refusal | None:
-        """Tell whether the way to the target leaves the software limits."""
-        low, high, here = self.config.limit_min, self.config.limit_max, self.set_position
-        blur = 1e-9 * (1.0 + abs(here))
-        if job.kind not in (JobKind.POSITION, JobKind.VELOCITY) or (
-            profile.low >= min(low, here) - blur and profile.high <= max(high, here) + blur
-        ):
-            return None
-        reach = f"would reach {profile.low} to {profile.high}, allowed: {low} to {high} {self.config.unit}"
-        return Refusal(ErrorId.OVERRUN, reach)
-
-    def _limit_text(self, *, up: bool) -> str:
-        limit = self.config.limit_max if up else self.config.limit_min
-        return f"position = {self.set_position}, limit {limit} {self.config.unit}"
 
     def _adopt(self, job: Job, profile: Profile) -> None:
         """Hand a profile to the store, put its limits in force, note it for the trace."""
@@ -351,51 +284,3 @@ class AxisCore:
         maximum = self.config.maximum
         self._table[Q.MAX_V : Q.MAX_J + 1, self._column] = maximum
         self.plans.append(AxisPlan(self.name, self._store.tick, 0, "set", position, maximum, self._profile))
-
-    # -- states and the life of commands -------------------------------------------------------------------------
-
-    def _step(self, event: AxisEvent) -> AxisState:
-        """Return the next state for an event that cannot be refused."""
-        state = TRANSITIONS[self._state][event]
-        assert isinstance(state, AxisState), (self._state, event)
-        return state
-
-    def _next(self, event: AxisEvent, command: AxisCommand) -> AxisState | None:
-        """Return the next state, or refuse the command."""
-        state = TRANSITIONS[self._state][event]
-        switched_off = not self._table[Q.ENABLE, self._column]
-        if switched_off and self._state is AxisState.STANDSTILL and event in NEED_POWER:
-            state = ErrorId.NOT_ENABLED  # the drive follows the request in the next tick
-        if isinstance(state, AxisState):
-            return state
-        self._refuse(command, Refusal(state, f"state {self._state.name}"))
-        return None
-
-    def _enter(self, state: AxisState) -> None:
-        self._state = state
-        self._table[Q.STATE, self._column] = state
-
-    def _tell(self, level: Level, kind: Kind, text: str, code: int = 0, command: int = 0) -> None:
-        self._events.add(Event(self.ledger.tick, level, kind, self.name, text, code, command))
-
-    def _accept(self, command: AxisCommand, text: str) -> None:
-        self._tell(Level.DEBUG, Kind.ACCEPTED, text, 0, command.number)
-
-    def _refuse(self, command: AxisCommand, refusal: Refusal) -> AxisCommand:
-        error = MotionError(refusal.id, self.name, refusal.detail)
-        self._tell(Level.WARNING, Kind.REFUSED, f"{command.name}: {error}", refusal.id, command.number)
-        command.fail(error)
-        return command
-
-    def _fail(self, command: AxisCommand, error: MotionError) -> None:
-        self._tell(Level.ERROR, Kind.ERROR, ERRORS[error.id].text, error.id, command.number)
-        command.fail(error)
-
-    def _end(self, command: AxisCommand, by: Command[None] | None = None) -> None:
-        """End a command done, or aborted by another one."""
-        if by is None:
-            self._tell(Level.DEBUG, Kind.DONE, command.name, 0, command.number)
-            command.finish(None)
-        else:
-            self._tell(Level.DEBUG, Kind.ABORTED, f"{command.name} by {by.name}", 0, command.number)
-            command.abort(by)

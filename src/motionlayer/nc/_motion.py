@@ -3,13 +3,25 @@
 import enum
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import Final, NamedTuple, Protocol
 
-from motionlayer.command import Command, ErrorId
+from motionlayer.command import Command, ErrorId, Ledger
 from motionlayer.profile import Limits
 
-if TYPE_CHECKING:
-    from motionlayer.nc._axis import Axis
+
+class Moving(Protocol):
+    """What a command asks its axis."""
+
+    name: str
+    ledger: Ledger
+
+    @property
+    def in_velocity(self) -> bool:
+        """The setpoint moves at the commanded velocity."""
+
+    @property
+    def remaining_time(self) -> float:
+        """Seconds until the setpoint comes to its target."""
 
 
 class JobKind(enum.Enum):
@@ -42,7 +54,7 @@ class AxisCommand(Command[None]):
             None before.
     """
 
-    def __init__(self, axis: "Axis", name: str) -> None:
+    def __init__(self, axis: Moving, name: str) -> None:
         ledger = axis.ledger
         super().__init__(f"{axis.name}.{name}", number=ledger.number(), owner=ledger.issuer)
         self.axis = axis

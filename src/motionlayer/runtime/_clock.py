@@ -65,8 +65,8 @@ class Watchdog:
             f"program {program.name} has not yielded for {self._patience:g} s in tick {self._ledger.tick}; "
             f"await run.sleep(...) or run.until(...) in its loops. It is here:\n{stack}"
         )
-        # A signal also ends a blocking call; only the main thread takes one.
-        if self._cycle_thread == threading.main_thread().ident:
+        # A signal also ends a blocking call. Only the main thread takes one, and a job in the background may ignore it.
+        if self._cycle_thread == threading.main_thread().ident and callable(signal.getsignal(signal.SIGINT)):
             signal.pthread_kill(self._cycle_thread, signal.SIGINT)
         else:
             ctypes.pythonapi.PyThreadState_SetAsyncExc(

@@ -129,21 +129,24 @@ class Run:
         Raises:
             ProgramStuck: a program did not yield.
             CycleFault: a step of the runtime itself failed.
-            ValueError: neither a program nor a time was given, so that the run would never end.
+            ValueError: the time is negative, NaN or infinite, or neither a program nor a time was given, so that
+                the run would never end.
         """
         main = self.start(program) if program is not None else None
         if main is None and not self._scheduler.programs and time is None:
             raise ValueError("run() without a program never ends: give a program or a time")
+        if time is not None:
+            _check_seconds("run", time)
         end = math.inf if time is None else self.tick + self._ticks(time)
         with Watchdog(self._ledger, self._patience) as watchdog:
             try:
                 self._loop(end, watch)
             except KeyboardInterrupt:
-                self._scheduler.cancel_all()
                 if watchdog.stuck is not None:
                     raise watchdog.stuck from None
                 raise
-            self._scheduler.cancel_all()
+            finally:
+                self._scheduler.cancel_all()
         if main is not None and main.failure is not None:
             if main in self.failures:
                 self.failures.remove(main)

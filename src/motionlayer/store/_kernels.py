@@ -12,18 +12,18 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 # Kernels see plain integers.
-SET_P: Final = int(Q.SET_P)
-SET_V: Final = int(Q.SET_V)
-SET_A: Final = int(Q.SET_A)
-SET_J: Final = int(Q.SET_J)
-END_TIME: Final = int(Q.END_TIME)
-PIECE_TIME: Final = int(Q.PIECE_TIME)
-PIECE_P: Final = int(Q.PIECE_P)
-PIECE_V: Final = int(Q.PIECE_V)
-PIECE_A: Final = int(Q.PIECE_A)
-PIECE_J: Final = int(Q.PIECE_J)
-TICK: Final = int(Q.TICK)
-OFFSET: Final = int(Q.OFFSET)
+SET_P: Final = Q.SET_P
+SET_V: Final = Q.SET_V
+SET_A: Final = Q.SET_A
+SET_J: Final = Q.SET_J
+END_TIME: Final = Q.END_TIME
+PIECE_TIME: Final = Q.PIECE_TIME
+PIECE_P: Final = Q.PIECE_P
+PIECE_V: Final = Q.PIECE_V
+PIECE_A: Final = Q.PIECE_A
+PIECE_J: Final = Q.PIECE_J
+TICK: Final = Q.TICK
+OFFSET: Final = Q.OFFSET
 
 
 @kernel

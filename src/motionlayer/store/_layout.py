@@ -1,42 +1,46 @@
 """Rows of the table. The first four are what the hash of a run is taken over, and stay together."""
 
-import enum
 from typing import Final
 
 
-class Q(enum.IntEnum):
-    """Quantity: row of `Store.table`. Units: u, u/s, u/s², u/s³ with the coordinate's own unit u; seconds."""
+class Q:
+    """Quantity: row of `Store.table`. Units: u, u/s, u/s², u/s³ with the coordinate's own unit u; seconds.
 
-    SET_P = 0
-    SET_V = 1
-    SET_A = 2
-    ACTUAL_P = 3
-    SET_J = 4
+    Plain integers: an enumeration would double the time of every single access.
+    """
+
+    SET_P: Final = 0
+    SET_V: Final = 1
+    SET_A: Final = 2
+    ACTUAL_P: Final = 3
+    SET_J: Final = 4
     # the piece a generator is on, and where its profile begins
-    END_TIME = 5
-    PIECE_TIME = 6
-    PIECE_P = 7
-    PIECE_V = 8
-    PIECE_A = 9
-    PIECE_J = 10
-    TICK = 11
-    OFFSET = 12
+    END_TIME: Final = 5
+    PIECE_TIME: Final = 6
+    PIECE_P: Final = 7
+    PIECE_V: Final = 8
+    PIECE_A: Final = 9
+    PIECE_J: Final = 10
+    TICK: Final = 11
+    OFFSET: Final = 12
     # limits in force from this tick on
-    MAX_V = 13
-    MAX_A = 14
-    MAX_D = 15
-    MAX_J = 16
-    MIN_P = 17
-    MAX_P = 18
+    MAX_V: Final = 13
+    MAX_A: Final = 14
+    MAX_D: Final = 15
+    MAX_J: Final = 16
+    MIN_P: Final = 17
+    MAX_P: Final = 18
     # states as numbers
-    STATE = 19
-    OVERRIDE = 20
+    STATE: Final = 19
+    OVERRIDE: Final = 20
     # between coordinate and drive: drive position = position - shift; request, status and input are 0 or 1
-    SHIFT = 21
-    ENABLE = 22
-    READY = 23
-    HOME_INPUT = 24
-    HOME_LATCH = 25
+    SHIFT: Final = 21
+    ENABLE: Final = 22
+    READY: Final = 23
+    HOME_INPUT: Final = 24
+    HOME_LATCH: Final = 25
+
+    COUNT: Final = 26
 
 
 PIECE_FIELDS: Final = 5

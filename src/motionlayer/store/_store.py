@@ -71,7 +71,7 @@ class Store:
                 raise ValueError(f"column {column} is the sum of {operands}: both must stand before it")
         self.generators = generators
         self.dt = dt
-        self.table: Floats = np.zeros((len(Q), generators + len(sums)))
+        self.table: Floats = np.zeros((Q.COUNT, generators + len(sums)))
         self.pieces: Floats = np.zeros((generators, max_pieces, PIECE_FIELDS))
         self.counts = np.ones(generators, dtype=np.int64)
         self.current = np.zeros(generators, dtype=np.int64)

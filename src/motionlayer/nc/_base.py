@@ -1,0 +1,116 @@
+"""The base of an axis: its values in the store, its state, and the life of its commands."""
+
+from motionlayer.command import ERRORS, Command, ErrorId, Ledger, MotionError
+from motionlayer.event import Event, EventLog, Kind, Level
+from motionlayer.nc._config import AxisConfig
+from motionlayer.nc._motion import AxisCommand, Refusal
+from motionlayer.nc._states import NEED_POWER, TRANSITIONS, AxisEvent, AxisState
+from motionlayer.store import Q, Store
+
+
+class AxisBase:
+    """What can be read of an axis, and how its state and its commands change.
+
+    Args:
+        config: what the machine description says.
+        column: the coordinate in the store.
+        store: setpoints and actual values.
+        ledger: numbers and owners of commands.
+        events: where the life of commands and errors is told.
+    """
+
+    def __init__(self, config: AxisConfig, column: int, store: Store, ledger: Ledger, events: EventLog) -> None:
+        self.config = config
+        self.name = config.name
+        self.ledger = ledger
+        self.error: MotionError | None = None
+        self._column = column
+        self._store = store
+        self._table = store.table
+        self._events = events
+        self._state = AxisState.DISABLED
+        self._table[Q.OVERRIDE, column] = 1.0
+        self._table[Q.STATE, column] = self._state
+        self._table[Q.MIN_P, column] = config.limit_min
+        self._table[Q.MAX_P, column] = config.limit_max
+
+    @property
+    def state(self) -> AxisState:
+        """Present state."""
+        return self._state
+
+    @property
+    def set_position(self) -> float:
+        """Setpoint valid at the present tick, u."""
+        return float(self._table[Q.SET_P, self._column])
+
+    @property
+    def set_velocity(self) -> float:
+        """Setpoint valid at the present tick, u/s."""
+        return float(self._table[Q.SET_V, self._column])
+
+    @property
+    def set_acceleration(self) -> float:
+        """Setpoint valid at the present tick, u/s²."""
+        return float(self._table[Q.SET_A, self._column])
+
+    @property
+    def actual_position(self) -> float:
+        """What the drive reported in this tick, u."""
+        return float(self._table[Q.ACTUAL_P, self._column])
+
+    @property
+    def override(self) -> float:
+        """Factor on the velocity of every motion, 0 to 1."""
+        return float(self._table[Q.OVERRIDE, self._column])
+
+    @property
+    def enabled(self) -> bool:
+        """The drive is ready."""
+        return bool(self._table[Q.READY, self._column])
+
+    def _step(self, event: AxisEvent) -> AxisState:
+        """Return the next state for an event that cannot be refused."""
+        state = TRANSITIONS[self._state][event]
+        assert isinstance(state, AxisState), (self._state, event)
+        return state
+
+    def _next(self, event: AxisEvent, command: AxisCommand) -> AxisState | None:
+        """Return the next state, or refuse the command."""
+        state = TRANSITIONS[self._state][event]
+        switched_off = not self._table[Q.ENABLE, self._column]
+        if switched_off and self._state is AxisState.STANDSTILL and event in NEED_POWER:
+            state = ErrorId.NOT_ENABLED  # the drive follows the request in the next tick
+        if isinstance(state, AxisState):
+            return state
+        self._refuse(command, Refusal(state, f"state {self._state.name}"))
+        return None
+
+    def _enter(self, state: AxisState) -> None:
+        self._state = state
+        self._table[Q.STATE, self._column] = state
+
+    def _tell(self, level: Level, kind: Kind, text: str, code: int = 0, command: int = 0) -> None:
+        self._events.add(Event(self.ledger.tick, level, kind, self.name, text, code, command))
+
+    def _accept(self, command: AxisCommand, text: str) -> None:
+        self._tell(Level.DEBUG, Kind.ACCEPTED, text, 0, command.number)
+
+    def _refuse(self, command: AxisCommand, refusal: Refusal) -> AxisCommand:
+        error = MotionError(refusal.id, self.name, refusal.detail)
+        self._tell(Level.WARNING, Kind.REFUSED, f"{command.name}: {error}", refusal.id, command.number)
+        command.fail(error)
+        return command
+
+    def _fail(self, command: AxisCommand, error: MotionError) -> None:
+        self._tell(Level.ERROR, Kind.ERROR, ERRORS[error.id].text, error.id, command.number)
+        command.fail(error)
+
+    def _end(self, command: AxisCommand, by: Command[None] | None = None) -> None:
+        """End a command done, or aborted by another one."""
+        if by is None:
+            self._tell(Level.DEBUG, Kind.DONE, command.name, 0, command.number)
+            command.finish(None)
+        else:
+            self._tell(Level.DEBUG, Kind.ABORTED, f"{command.name} by {by.name}", 0, command.number)
+            command.abort(by)
