@@ -95,6 +95,7 @@ def test_remaining_time_of_what_has_no_end_in_sight_is_infinite() -> None:
     assert move.remaining_time == math.inf
     assert not move.at_target
     x.set_override(1.0)
+    run.step()  # the override is in force from the tick of its call on
     assert 0.5 < move.remaining_time < 1.0
 
 

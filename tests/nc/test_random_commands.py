@@ -96,7 +96,7 @@ PART = st.builds(
 
 
 def call(axis: Axis, act: Act) -> Command[Any] | None:
-    """Make the call; a fault is no command."""
+    """Make the call; a fault and an override are no commands."""
     low, span = {"X": (-100.0, 500.0), "Y": (-720.0, 1440.0), "Z": (-500.0, 3000.0)}[act.axis]
     place = low + act.place * span
     most = axis.config.maximum
@@ -109,7 +109,7 @@ def call(axis: Axis, act: Act) -> Command[Any] | None:
         "halt": lambda: axis.halt(deceleration=d or None, jerk=j),
         "stop": lambda: axis.stop(deceleration=d, jerk=j or None),
         "home": lambda: axis.home(place),
-        "override": lambda: axis.set_override(act.fractions[0] if act.place < 0.8 else 1.0),
+        "override": lambda: axis.set_override(min(act.fractions[0], 1.0) if act.place < 0.8 else 1.0),
         "enable": axis.enable,
         "disable": axis.disable,
         "reset": axis.reset,

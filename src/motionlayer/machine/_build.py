@@ -7,7 +7,7 @@ from motionlayer.command import Ledger
 from motionlayer.drive import IdealDrives, ReferenceSwitch
 from motionlayer.event import EventLog
 from motionlayer.machine._description import AxisDescription, Description
-from motionlayer.nc import Axis, AxisConfig, AxisPlan, AxisStage, HomeConfig, HomingMode
+from motionlayer.nc import Axis, AxisConfig, AxisStage, HomeConfig, HomingMode
 from motionlayer.profile import MAX_PIECES, Limits
 from motionlayer.runtime import Stage, Step
 from motionlayer.store import Q, Store
@@ -22,7 +22,6 @@ class Parts(NamedTuple):
     ledger: Ledger
     events: EventLog
     axes: dict[str, Axis]
-    plans: list[AxisPlan]
     stages: list[Stage]
 
 
@@ -34,18 +33,18 @@ def build(description: Description) -> Parts:
     store.table[Q.SET_P] = store.table[Q.ACTUAL_P] = starts
     drives = IdealDrives(store, range(len(entries)), [_switch(entry) for entry in entries.values()])
     ledger, events = Ledger(), EventLog()
-    plans: list[AxisPlan] = []
     axes = {
-        name: Axis(_axis_config(name, entry), column, store, ledger, events, plans)
+        name: Axis(_axis_config(name, entry), column, store, ledger, events)
         for column, (name, entry) in enumerate(entries.items())
     }
     stage = AxisStage(list(axes.values()), store)
     stages = [
         Stage(Step.INPUTS, "drives", drives.inputs),
         Stage(Step.INPUTS, "axes", stage.inputs),
+        Stage(Step.ACCEPT, "axes", stage.accept),
         Stage(Step.MOTION, "axes", stage.motion),
     ]
-    return Parts(store, ledger, events, axes, plans, stages)
+    return Parts(store, ledger, events, axes, stages)
 
 
 def _axis_config(name: str, entry: AxisDescription) -> AxisConfig:

@@ -58,7 +58,7 @@ class Simulation(Run):
             self._tracing = Tracing(machine, parts, self.seed, loaded, path, keep=trace is not False)
             stages.append(Stage(Step.CAPTURE, "trace", self._tracing.capture))
         else:
-            stages.append(Stage(Step.CAPTURE, "forget plans", lambda _tick: parts.plans.clear()))
+            stages.append(Stage(Step.CAPTURE, "forget plans", lambda _tick: parts.store.forget_plans()))
         super().__init__(
             stages,
             base_cycle_ns=machine.description.base_cycle_ns,

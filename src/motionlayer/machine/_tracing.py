@@ -5,20 +5,17 @@ import sys
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any
 
 import numpy as np
 
 from motionlayer import __version__, _kernel
 from motionlayer.machine._build import Parts
 from motionlayer.machine._machine import Machine
+from motionlayer.machine._plans import followed, redefinition
 from motionlayer.machine._programs import Loaded
 from motionlayer.machine._signals import signals_of
-from motionlayer.nc import AxisPlan
-from motionlayer.record import Plan, Recorder, Trace
-
-if TYPE_CHECKING:
-    from motionlayer.record._records import PlanKind
+from motionlayer.record import Recorder, Trace
 
 
 class Tracing:
@@ -44,17 +41,22 @@ class Tracing:
         keep: bool,
     ) -> None:
         signals = signals_of(machine.description, parts.store) if keep else []
-        self._plans = parts.plans
+        self._store = parts.store
+        self._axes = list(parts.axes.values())
         self._recorder = Recorder(parts.store.table, signals, header(machine, seed, programs), path)
         parts.events.listen(self._recorder.event)
 
     def capture(self, tick: int) -> None:
         """Record everything valid at this tick."""
-        if self._plans:
-            # Of several plans of an axis in one tick only the last was ever followed, after a redefinition.
-            for plan in {(plan.axis, plan.tick, plan.kind == "set"): plan for plan in self._plans}.values():
-                self._recorder.plan(_record(plan))
-            self._plans.clear()
+        store = self._store
+        # Of several redefinitions in one tick only the last counts, and likewise of profiles.
+        for (column, since), position in {
+            (column, since): position for column, since, position in store.placed
+        }.items():
+            self._recorder.plan(redefinition(self._axes[column], since, position))
+        for column in store.taken_over:
+            self._recorder.plan(followed(self._axes[column], column, store))
+        store.forget_plans()
         self._recorder.capture(tick)
 
     def close(self) -> str:
@@ -84,20 +86,3 @@ def header(machine: Machine, seed: int, programs: Sequence[Loaded]) -> dict[str,
             "processor": platform.machine(),
         },
     }
-
-
-def _record(plan: AxisPlan) -> Plan:
-    limits = plan.limits
-    return Plan(
-        axis=plan.axis,
-        tick=plan.tick,
-        offset=0.0,
-        command=plan.command,
-        kind=cast("PlanKind", plan.kind),
-        target=plan.target,
-        velocity=limits.velocity,
-        acceleration=limits.acceleration,
-        deceleration=limits.deceleration,
-        jerk=limits.jerk,
-        pieces=plan.profile.pieces,
-    )

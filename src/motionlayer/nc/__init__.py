@@ -2,7 +2,6 @@
 
 from motionlayer.nc._axis import Axis
 from motionlayer.nc._config import AxisConfig, Direction, HomeConfig, HomingMode
-from motionlayer.nc._core import AxisPlan
 from motionlayer.nc._motion import AxisCommand
 from motionlayer.nc._stage import AxisStage
 from motionlayer.nc._states import TRANSITIONS, AxisEvent, AxisState
@@ -14,7 +13,6 @@ __all__ = [
     "AxisCommand",
     "AxisConfig",
     "AxisEvent",
-    "AxisPlan",
     "AxisStage",
     "AxisState",
     "Direction",

@@ -7,9 +7,10 @@ from motionlayer.command import ErrorId
 from motionlayer.nc._config import Direction
 from motionlayer.nc._core import AxisCore
 from motionlayer.nc._homing import Homing
-from motionlayer.nc._motion import SCALED, AxisCommand, Job, JobKind, Refusal, dynamics, least_jerk, number
+from motionlayer.nc._motion import AxisCommand, Job, JobKind, Refusal, dynamics, least_jerk, number
+from motionlayer.nc._override import STEPS
 from motionlayer.nc._states import TRANSITIONS, AxisEvent, AxisState
-from motionlayer.profile import Limits, PlanError
+from motionlayer.profile import Limits
 from motionlayer.store import Q, Watch
 
 _DIRECTIONS: Final = ", ".join(f"Direction.{one.name}" for one in Direction)
@@ -189,33 +190,22 @@ class Axis(AxisCore):
             return self.stop()
         return self.command or self._power
 
-    def set_override(self, factor: float) -> AxisCommand:
-        """Scale the velocity of every motion from now on; 0 holds the axis without ending its command.
+    def set_override(self, factor: float) -> None:
+        """Scale the velocity of every motion from this tick on; 0 holds the axis without ending its command.
+
+        Acceleration and jerk stay as they are. It may change in every cycle.
 
         Args:
-            factor: 0 to 1.
+            factor: 0 to 1, taken to 1e-6.
 
         Raises:
             TypeError: it is not a number.
+            ValueError: it is not between 0 and 1.
         """
-        command = AxisCommand(self, "set_override")
         value = _required("factor", factor)
         if not 0.0 <= value <= 1.0:
-            return self._refuse(command, Refusal(ErrorId.PARAMETER, f"factor = {value}, allowed: 0 to 1"))
-        job, before = self._job, self.override
-        profile = None
-        self._table[Q.OVERRIDE, self._column] = value
-        if value != before and job is not None and job.kind in SCALED:
-            try:
-                profile = self._planned(job)
-            except PlanError as error:
-                self._table[Q.OVERRIDE, self._column] = before
-                return self._refuse(command, Refusal(ErrorId.INTERNAL, str(error)))
-        self._accept(command, f"set_override(factor={value})")
-        if job is not None and profile is not None:
-            self._adopt(job, profile)
-        self._end(command)
-        return command
+            raise ValueError(f"{self.name}: override {value}, allowed: 0 to 1 (1 is 100 %)")
+        self._table[Q.REQUEST, self._column] = round(value * STEPS) / STEPS
 
     def _move(
         self, text: str, goal: float, asked: tuple[float | None, float | None, float | None, float | None]

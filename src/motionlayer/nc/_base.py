@@ -29,7 +29,7 @@ class AxisBase:
         self._table = store.table
         self._events = events
         self._state = AxisState.DISABLED
-        self._table[Q.OVERRIDE, column] = 1.0
+        self._table[Q.OVERRIDE, column] = self._table[Q.REQUEST, column] = 1.0
         self._table[Q.STATE, column] = self._state
         self._table[Q.MIN_P, column] = config.limit_min
         self._table[Q.MAX_P, column] = config.limit_max
@@ -62,7 +62,7 @@ class AxisBase:
     @property
     def override(self) -> float:
         """Factor on the velocity of every motion, 0 to 1."""
-        return float(self._table[Q.OVERRIDE, self._column])
+        return float(self._table[Q.REQUEST, self._column])
 
     @property
     def enabled(self) -> bool:

@@ -1,7 +1,7 @@
 """The inside of an axis: job, plan, and what the cycle brings to it."""
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from motionlayer.command import ErrorId, Ledger, MotionError
 from motionlayer.event import EventLog, Kind, Level
@@ -10,31 +10,11 @@ from motionlayer.nc._config import AxisConfig
 from motionlayer.nc._limits import bad_target, limit_text, overrun
 from motionlayer.nc._motion import SCALED, AxisCommand, Job, JobKind, Refusal
 from motionlayer.nc._states import AxisEvent, AxisState
-from motionlayer.profile import Limits, PlanError, Profile, plan_position, plan_stop, plan_velocity, rest_at
-from motionlayer.store import Ended, Q, Store
+from motionlayer.profile import Limits, PlanError, Profile, plan_position, plan_stop, plan_velocity
+from motionlayer.store import JOB_OTHER, JOB_POSITION, JOB_VELOCITY, Ended, Q, Store
 
 if TYPE_CHECKING:
     from motionlayer.nc._homing import Homing
-
-
-class AxisPlan(NamedTuple):
-    """A profile as an axis took it over, for the trace.
-
-    Attributes:
-        tick: the tick whose setpoint it starts from; first sampled for the one after. `set` holds from its own tick.
-        kind: `position`, `velocity`, `stop` or `set`.
-        target: position or signed velocity; NaN for a stop.
-        limits: that it was planned under, with the override.
-        command: number of the command, 0 without.
-    """
-
-    axis: str
-    tick: int
-    command: int
-    kind: str
-    target: float
-    limits: Limits
-    profile: Profile
 
 
 class AxisCore(AxisBase):
@@ -46,18 +26,13 @@ class AxisCore(AxisBase):
         store: setpoints and actual values.
         ledger: numbers and owners of commands.
         events: where the life of commands and errors is told.
-        plans: where profiles are noted when they are taken over; whoever records clears it.
     """
 
-    def __init__(
-        self, config: AxisConfig, column: int, store: Store, ledger: Ledger, events: EventLog, plans: list[AxisPlan]
-    ) -> None:
+    def __init__(self, config: AxisConfig, column: int, store: Store, ledger: Ledger, events: EventLog) -> None:
         super().__init__(config, column, store, ledger, events)
-        self.plans = plans
         self.homed = False
         self._job: Job | None = None
         self._homing: Homing | None = None
-        self._profile = rest_at(self.set_position)
         self._power: AxisCommand | None = None
         self._reset: AxisCommand | None = None
         self._set_plan(self.set_position)
@@ -74,12 +49,13 @@ class AxisCore(AxisBase):
         if self._homing is not None or self._held:
             return math.inf
         passed = (store.tick - self._table[Q.TICK, self._column]) * store.dt
-        return max(0.0, self._profile.duration - float(passed))
+        return max(0.0, float(store.end_of(self._column)[0] - passed))
 
     @property
     def _held(self) -> bool:
         """Override 0 keeps the job from coming to its end."""
-        return self._job is not None and self._job.kind in SCALED and self.override == 0.0
+        in_force = self._table[Q.OVERRIDE, self._column]
+        return self._job is not None and self._job.kind in SCALED and (self.override == 0.0 or in_force == 0.0)
 
     @property
     def in_velocity(self) -> bool:
@@ -115,7 +91,7 @@ class AxisCore(AxisBase):
         if job.command is not None and job.kind is not JobKind.SEARCH:
             job.command.end_time = self._store.tick * self._store.dt - ended.early
         if job.kind is JobKind.VELOCITY:
-            if self._profile.pieces[-1, 2] == 0.0:
+            if self._store.end_of(self._column)[2] == 0.0:
                 up = job.target > 0.0
                 self.fault(
                     ErrorId.MAXIMUM_PASSED if up else ErrorId.MINIMUM_PASSED,
@@ -130,7 +106,8 @@ class AxisCore(AxisBase):
         """Put the axis in error: the running command ends with it, a moving axis brakes."""
         self.error = MotionError(error, self.name, detail)
         self._tell(Level.ERROR, Kind.MESSAGE, str(self.error), error)
-        job, self._job = self._job, None
+        job = self._job
+        self._drop_job()
         self._homing = None
         self._enter(self._step(AxisEvent.FAULT))
         if job is not None and job.command is not None:
@@ -152,7 +129,8 @@ class AxisCore(AxisBase):
         """Redefine the present position, end the homing."""
         self._redefine(position)
         self.homed = True
-        self._job = self._homing = None
+        self._drop_job()
+        self._homing = None
         self._enter(self._step(AxisEvent.AT_REST))
         self._end(command)
 
@@ -205,8 +183,13 @@ class AxisCore(AxisBase):
         elif power is not None:
             self._end(power)
 
-    def _at_rest(self, job: Job) -> None:
+    def _drop_job(self) -> None:
+        """Nothing is being executed; an override has nothing to scale."""
         self._job = None
+        self._table[Q.JOB_KIND, self._column] = JOB_OTHER
+
+    def _at_rest(self, job: Job) -> None:
+        self._drop_job()
         self._enter(self._step(AxisEvent.AT_REST))
         if job.command is not None:
             self._end(job.command)
@@ -234,7 +217,7 @@ class AxisCore(AxisBase):
             return plan_stop(*state, limits)
         if job.kind is JobKind.POSITION:
             return plan_position(*state, job.target, limits)
-        end = self.config.limit_max if job.target > 0.0 else self.config.limit_min
+        end = self._limit_ahead(job)
         if job.kind is JobKind.VELOCITY and math.isfinite(end):
             return plan_position(*state, end, limits)
         return plan_velocity(*state, math.copysign(limits.velocity, job.target), limits)
@@ -253,22 +236,23 @@ class AxisCore(AxisBase):
             self.fault(ErrorId.INTERNAL, str(error))
 
     def _adopt(self, job: Job, profile: Profile) -> None:
-        """Hand a profile to the store, put its limits in force, note it for the trace."""
+        """Hand a profile to the store, put its limits in force, and leave there what a change of override needs."""
         self._job = job
-        self._profile = profile
         self._store.adopt(self._column, profile.pieces)
-        limits = self._scaled(job)
-        self._table[Q.MAX_V : Q.MAX_J + 1, self._column] = limits
+        table, column = self._table, self._column
+        table[Q.MAX_V : Q.MAX_J + 1, column] = self._scaled(job)
+        table[Q.OVERRIDE, column] = self.override
+        kind, target = JOB_OTHER, 0.0
+        if job.kind in SCALED:
+            bounded = job.kind is JobKind.VELOCITY and math.isfinite(self._limit_ahead(job))
+            kind = JOB_POSITION if bounded or job.kind is JobKind.POSITION else JOB_VELOCITY
+            target = self._limit_ahead(job) if bounded else job.target
         command = job.command.number if job.command is not None else 0
-        kind, target = self._kind(job, profile)
-        self.plans.append(AxisPlan(self.name, self._store.tick, command, kind, target, limits, profile))
+        table[Q.JOB_KIND : Q.COMMAND + 1, column] = (kind, target, job.limits.velocity, command)
 
-    def _kind(self, job: Job, profile: Profile) -> tuple[str, float]:
-        """Say where a profile leads: an endless motion ends at a position where a software limit is ahead."""
-        if job.kind not in SCALED or self.override == 0.0:
-            return "stop", math.nan
-        end = profile.pieces[-1]
-        return ("position", float(end[1])) if end[2] == 0.0 else ("velocity", float(end[2]))
+    def _limit_ahead(self, job: Job) -> float:
+        """Return the software limit that an endless motion goes towards."""
+        return self.config.limit_max if job.target > 0.0 else self.config.limit_min
 
     def _redefine(self, position: float) -> None:
         """Give the place where the axis stands another position: set, actual and drive stay where they are."""
@@ -280,7 +264,4 @@ class AxisCore(AxisBase):
     def _set_plan(self, position: float) -> None:
         """Let the setpoint of the resting axis be `position`, from this very tick on."""
         self._store.place(self._column, position)
-        self._profile = rest_at(position)
-        maximum = self.config.maximum
-        self._table[Q.MAX_V : Q.MAX_J + 1, self._column] = maximum
-        self.plans.append(AxisPlan(self.name, self._store.tick, 0, "set", position, maximum, self._profile))
+        self._table[Q.MAX_V : Q.MAX_J + 1, self._column] = self.config.maximum

@@ -2,7 +2,9 @@
 
 from collections.abc import Sequence
 
+from motionlayer.command import ErrorId
 from motionlayer.nc._axis import Axis
+from motionlayer.nc._override import Overrides
 from motionlayer.store import Store
 
 
@@ -17,6 +19,7 @@ class AxisStage:
     def __init__(self, axes: Sequence[Axis], store: Store) -> None:
         self._axes = axes
         self._store = store
+        self._overrides = Overrides(store)
 
     def inputs(self, _tick: int) -> None:
         """Take up what the drives reported."""
@@ -25,6 +28,11 @@ class AxisStage:
             for column in changed:
                 self._axes[column].drive_changed()
             changed.clear()
+
+    def accept(self, _tick: int) -> None:
+        """Put requested overrides in force, after all commands of the tick."""
+        for column in self._overrides.apply():
+            self._axes[column].fault(ErrorId.INTERNAL, "the motion cannot be planned with this override")
 
     def motion(self, tick: int) -> None:
         """Sample the setpoints of the next tick; let commands end."""

@@ -51,7 +51,7 @@ _scratch: Final = np.zeros((MAX_PIECES, 5))
 
 
 @kernel
-def _plan(
+def plan(
     out: Floats, scratch: Floats, p: float, v: float, a: float, target: float, to_position: bool,
     vel: float, acc: float, dec: float, jerk: float,
 ) -> tuple[int, float, float]:  # fmt: skip
@@ -85,7 +85,7 @@ def _plan(
 
 
 def _planned(p: float, v: float, a: float, target: float, to_position: bool, limits: Limits) -> Profile:
-    count, low, high = _plan(_out, _scratch, p, v, a, target, to_position, *limits)
+    count, low, high = plan(_out, _scratch, p, v, a, target, to_position, *limits)
     if count < 0:
         name = "plan_position" if to_position else "plan_velocity"
         raise PlanError(f"{REASONS[count]}: {name}({p!r}, {v!r}, {a!r}, {target!r}, {limits!r})")

@@ -12,6 +12,7 @@ class Step(enum.IntEnum):
     INPUTS   actual values, drive status, what came from outside
     PROGRAMS the scheduler; nothing else
     LAYER    changed Ctrl to jobs, jobs to commands
+    ACCEPT   what the commands of the tick have asked for in common: overrides
     CAPTURE  everything valid at n is complete: set values, states and limits; read-only
     MOTION   setpoints of n+1; commands end
     OUTPUTS  setpoints to the drives; images published
@@ -22,10 +23,11 @@ class Step(enum.IntEnum):
     INPUTS = 1
     PROGRAMS = 2
     LAYER = 3
-    CAPTURE = 4
-    MOTION = 5
-    OUTPUTS = 6
-    OBSERVE = 7
+    ACCEPT = 4
+    CAPTURE = 5
+    MOTION = 6
+    OUTPUTS = 7
+    OBSERVE = 8
 
 
 class Stage(NamedTuple):

@@ -19,7 +19,19 @@ the cycle: only their objects have anything to do.
 The set jerk is the mean over the cycle that ends at n, (a(n) - a(n-1)) / dt: what a sampled drive sees.
 """
 
-from motionlayer.store._layout import PIECE_FIELDS, Q
+from motionlayer.store._kernels import take_over
+from motionlayer.store._layout import JOB_OTHER, JOB_POSITION, JOB_VELOCITY, PIECE_FIELDS, Q
 from motionlayer.store._store import Ended, Snapshot, Store, Watch
 
-__all__ = ["PIECE_FIELDS", "Ended", "Q", "Snapshot", "Store", "Watch"]
+__all__ = [
+    "JOB_OTHER",
+    "JOB_POSITION",
+    "JOB_VELOCITY",
+    "PIECE_FIELDS",
+    "Ended",
+    "Q",
+    "Snapshot",
+    "Store",
+    "Watch",
+    "take_over",
+]

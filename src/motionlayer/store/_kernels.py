@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motionlayer._kernel import kernel
-from motionlayer.store._layout import Q
+from motionlayer.store._layout import PIECE_FIELDS, Q
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -24,6 +24,31 @@ PIECE_A: Final = Q.PIECE_A
 PIECE_J: Final = Q.PIECE_J
 TICK: Final = Q.TICK
 OFFSET: Final = Q.OFFSET
+
+
+@kernel
+def take_over(
+    table: Floats,
+    pieces: Floats,
+    counts: Integers,
+    current: Integers,
+    column: int,
+    profile: Floats,
+    count: int,
+    tick: float,
+    offset: float,
+) -> None:
+    """Let a column follow the first `count` pieces of a profile, of which `offset` seconds have passed at `tick`."""
+    for k in range(count):
+        for field in range(PIECE_FIELDS):
+            pieces[column, k, field] = profile[k, field]
+    counts[column] = count
+    current[column] = 0
+    table[TICK, column] = tick
+    table[OFFSET, column] = offset
+    load_piece(table, pieces, counts, current, column)
+    if count == 1:  # over when it begins: its end is found by the next sample
+        table[END_TIME, column] = pieces[column, 0, 0]
 
 
 @kernel

@@ -39,9 +39,24 @@ class Q:
     READY: Final = 23
     HOME_INPUT: Final = 24
     HOME_LATCH: Final = 25
+    # what the override scales: kind of job (see `JOB_*`), its target and velocity before the override
+    JOB_KIND: Final = 26
+    JOB_TARGET: Final = 27
+    JOB_V: Final = 28
+    COMMAND: Final = 29
+    REQUEST: Final = 30
 
-    COUNT: Final = 26
+    COUNT: Final = 31
 
+
+JOB_OTHER: Final = 0
+"""Nothing, or a motion that the override leaves alone."""
+
+JOB_POSITION: Final = 1
+"""Towards rest at `JOB_TARGET`."""
+
+JOB_VELOCITY: Final = 2
+"""Towards the signed velocity `JOB_TARGET`."""
 
 PIECE_FIELDS: Final = 5
 """A piece is (time since the profile began, p, v, a at its start, jerk)."""

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from motionlayer.store._kernels import Floats, add_up, passing_time, sample
+from motionlayer.store._kernels import Floats, add_up, passing_time, sample, take_over
 from motionlayer.store._layout import PIECE_FIELDS, Q
 
 
@@ -62,7 +62,7 @@ class Store:
 
     __slots__ = (
         "_ended", "_left", "_right", "_watches", "counts", "current", "dt",
-        "generators", "pieces", "status_changed", "table", "tick",
+        "generators", "pieces", "placed", "status_changed", "table", "taken_over", "tick",
     )  # fmt: skip
 
     def __init__(self, generators: int, *, dt: float, max_pieces: int, sums: Sequence[tuple[int, int]] = ()) -> None:
@@ -77,6 +77,10 @@ class Store:
         self.current = np.zeros(generators, dtype=np.int64)
         self.tick = 0
         """The tick at which the setpoints in the table are valid."""
+        self.taken_over: dict[int, None] = {}
+        """Columns that follow another profile since the dictionary was last cleared, in order."""
+        self.placed: list[tuple[int, int, float]] = []
+        """Column, tick and position of every `place` since the list was last cleared."""
         self.status_changed: list[int] = []
         """Columns whose drive status or inputs changed; the drives append, the axes take."""
         self._ended = np.zeros(max(generators, 1), dtype=np.int64)
@@ -92,17 +96,15 @@ class Store:
             column: a generator.
             pieces: shape (k, 5), as `Store.pieces`; the last piece goes on for ever.
             offset: seconds of the profile that have passed at the present tick.
+
+        Raises:
+            ValueError: too many pieces.
         """
-        count = len(pieces)
-        self.pieces[column, :count] = pieces
-        self.counts[column] = count
-        self.current[column] = 0
-        table = self.table
-        table[Q.TICK, column] = self.tick
-        table[Q.OFFSET, column] = offset
-        table[Q.PIECE_TIME : Q.PIECE_J + 1, column] = pieces[0]
-        # A profile of one piece is over when it begins: its end is found by the next sample.
-        table[Q.END_TIME, column] = pieces[1, 0] if count > 1 else pieces[0, 0]
+        if len(pieces) > self.pieces.shape[1]:
+            raise ValueError(f"a profile of {len(pieces)} pieces; at most {self.pieces.shape[1]} are possible")
+        tables = self.table, self.pieces, self.counts, self.current
+        take_over(*tables, column, pieces, len(pieces), float(self.tick), offset)
+        self.taken_over[column] = None
 
     def place(self, column: int, position: float) -> None:
         """Redefine where a resting column stands: its setpoint changes at once and stays there."""
@@ -110,6 +112,8 @@ class Store:
         table[Q.SET_P, column] = position
         table[Q.SET_V : Q.SET_A + 1, column] = 0.0
         self.adopt(column, np.array([[0.0, position, 0.0, 0.0, 0.0]]))
+        del self.taken_over[column]  # what was taken over in this tick before was never followed
+        self.placed.append((column, self.tick, position))
         table[Q.END_TIME, column] = np.inf
 
     def sample(self, tick: int) -> list[Ended]:
@@ -162,6 +166,17 @@ class Store:
         for watch, early in passed:
             watch.tell(early)
 
+    def forget_plans(self) -> None:
+        """Clear what `taken_over` and `placed` have noted."""
+        if self.taken_over or self.placed:
+            self.taken_over.clear()
+            self.placed.clear()
+
+    def end_of(self, column: int) -> Floats:
+        """Return the last piece of the profile that a column follows."""
+        end: Floats = self.pieces[column, self.counts[column] - 1]
+        return end
+
     def snapshot(self) -> "Snapshot":
         """Return copies of all tables."""
         return Snapshot(self.tick, self.table.copy(), self.pieces.copy(), self.counts.copy(), self.current.copy())
@@ -174,4 +189,6 @@ class Store:
         self.counts[...] = snapshot.counts
         self.current[...] = snapshot.current
         self.status_changed.clear()
+        self.taken_over.clear()
+        self.placed.clear()
         self._watches.clear()

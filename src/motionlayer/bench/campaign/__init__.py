@@ -1,0 +1,21 @@
+"""Campaigns: very many random cases, made from a seed, that can be stopped, continued and repeated one by one.
+
+A *case* is made from the seed and its number alone, so that one that went wrong can be repeated without the others.
+The same code runs as a test for some seconds and as a campaign for hours.
+
+========== ==========================================================================================================
+`planning` random states of the planner, in families: a refused plan or one that breaks an independent rule fails
+`life`     random machines whose programs command, override, fail and get cancelled; judged by `motionlayer.verify` and
+           by the rules of a command's life
+`mutation` one sample of a valid trace is changed by 10 to 10⁶ times its tolerance; `motionlayer.verify` must find it
+========== ==========================================================================================================
+"""
+
+from typing import Final
+
+from motionlayer.bench.campaign._campaign import Campaign, Failure
+from motionlayer.bench.campaign._planning import PLANNING
+
+CAMPAIGNS: Final = {campaign.name: campaign for campaign in (PLANNING,)}
+
+__all__ = ["CAMPAIGNS", "Campaign", "Failure"]

@@ -1,0 +1,45 @@
+"""What an axis follows, as the record that a trace keeps of it."""
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from motionlayer.nc import Axis
+from motionlayer.record import Plan
+from motionlayer.store import JOB_OTHER, Q, Store
+
+if TYPE_CHECKING:
+    from motionlayer.record._records import PlanKind
+
+
+def redefinition(axis: Axis, tick: int, position: float) -> Plan:
+    """Return the record of a position that was redefined."""
+    pieces = np.array([[0.0, position, 0.0, 0.0, 0.0]])
+    return Plan(axis.name, tick, 0.0, 0, "set", position, *axis.config.maximum, pieces)
+
+
+def followed(axis: Axis, column: int, store: Store) -> Plan:
+    """Return the record of the profile that an axis follows.
+
+    Where it leads is read off its end: an endless motion ends at a position where a software limit is ahead, and at
+    rest anywhere where the override holds it.
+    """
+    table, end = store.table, store.end_of(column)
+    kind: PlanKind = "position" if end[2] == 0.0 else "velocity"
+    target = float(end[1] if end[2] == 0.0 else end[2])
+    if table[Q.JOB_KIND, column] == JOB_OTHER or table[Q.OVERRIDE, column] == 0.0:
+        kind, target = "stop", math.nan
+    return Plan(
+        axis=axis.name,
+        tick=int(table[Q.TICK, column]),
+        offset=float(table[Q.OFFSET, column]),
+        command=int(table[Q.COMMAND, column]),
+        kind=kind,
+        target=target,
+        velocity=float(table[Q.MAX_V, column]),
+        acceleration=float(table[Q.MAX_A, column]),
+        deceleration=float(table[Q.MAX_D, column]),
+        jerk=float(table[Q.MAX_J, column]),
+        pieces=store.pieces[column, : store.counts[column]],
+    )
