@@ -48,10 +48,13 @@ ERRORS: Final[dict[ErrorId, ErrorText]] = {
         "brake harder, or stop before the new command",
     ),
     ErrorId.LOCKED_BY_STOP: ErrorText("the axis is locked by a stop", "wait until the stop has ended"),
-    ErrorId.BELOW_MINIMUM: ErrorText("start below the minimum software limit", "move in positive direction"),
-    ErrorId.ABOVE_MAXIMUM: ErrorText("start above the maximum software limit", "move in negative direction"),
+    ErrorId.BELOW_MINIMUM: ErrorText("start at or below the minimum software limit", "move in positive direction"),
+    ErrorId.ABOVE_MAXIMUM: ErrorText("start at or above the maximum software limit", "move in negative direction"),
     ErrorId.MINIMUM_PASSED: ErrorText("minimum software limit reached in motion", "reset, then move away from it"),
     ErrorId.MAXIMUM_PASSED: ErrorText("maximum software limit reached in motion", "reset, then move away from it"),
-    ErrorId.CANNOT_START: ErrorText("the axis cannot start this in its state", "reset an error; wait for homing"),
+    ErrorId.CANNOT_START: ErrorText(
+        "the axis cannot start this in its state",
+        "reset() an axis in ErrorStop; wait for the end of a homing, or stop() it",
+    ),
     ErrorId.PARAMETER: ErrorText("parameter out of range", "see the range in the message"),
 }

@@ -1,11 +1,12 @@
 """`Simulation`: a machine that runs faster than real time, without hardware."""
 
+import difflib
 import hashlib
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, NoReturn, Self
 
 import numpy as np
 
@@ -17,7 +18,16 @@ from motionlayer.record import Trace
 from motionlayer.runtime import PATIENCE, Program, Run, Stage, Step
 
 if TYPE_CHECKING:
-    from motionlayer.nc import Axis
+    from motionlayer.nc import Axis, AxisCommand
+
+
+class Axes(dict[str, "Axis"]):
+    """The axes of a machine by name."""
+
+    def __missing__(self, name: str) -> NoReturn:
+        near = difflib.get_close_matches(name, self, n=1)
+        hint = f"; did you mean {near[0]!r}?" if near else ""
+        raise KeyError(f"no axis {name!r}; this machine has {', '.join(self)}{hint}")
 
 
 class Simulation(Run):
@@ -45,12 +55,15 @@ class Simulation(Run):
         programs: Sequence[Loaded] | None = None,
         patience: float = PATIENCE,
     ) -> None:
+        if not isinstance(machine, Machine):
+            raise TypeError(f"Simulation({machine!r}): give a machine, as in Simulation(Machine.load({machine!r}))")
         loaded = [load_program(source) for source in sources_of(machine)] if programs is None else programs
         self.machine = machine
         self.seed = machine.description.seed if seed is None else seed
         parts = build(machine.description)
-        self.axes: Mapping[str, Axis] = parts.axes
+        self.axes: Mapping[str, Axis] = Axes(parts.axes)
         """The axes by name."""
+        self._closed = False
         self._tracing: Tracing | None = None
         stages = list(parts.stages)
         if trace is not None:
@@ -85,14 +98,28 @@ class Simulation(Run):
         """
         if self._tracing is None:
             raise ValueError("this run records nothing: give Simulation(..., trace=True)")
+        self._closed = True
         return self._tracing.trace()
 
+    def step(self, ticks: int = 1) -> None:
+        """Run a number of ticks, programs or not.
+
+        Raises:
+            RuntimeError: the recording has ended, by `trace` or `close`.
+            CycleFault: a step of the runtime itself failed.
+        """
+        if self._closed:
+            raise RuntimeError("the recording has ended, by run.trace or the end of its block: make a new Simulation")
+        super().step(ticks)
+
     def close(self) -> str:
-        """End the recording; return the hash of the run, empty without a recording.
+        """End the run; programs that have not ended are cancelled. Return its hash, empty without a recording.
 
         Raises:
             TraceError: the trace could not be written.
         """
+        self._closed = True
+        self._scheduler.cancel_all()
         return self._tracing.close() if self._tracing is not None else ""
 
     def __enter__(self) -> Self:
@@ -104,6 +131,13 @@ class Simulation(Run):
         self.close()
 
     def _abandon(self, program: Program) -> None:
-        for axis in self.axes.values():
-            if axis.command is not None and axis.command.owner is program:
-                axis.abandon()
+        """Halt what a failed program was moving; the run goes on until it rests."""
+        owned = [axis for axis in self.axes.values() if axis.command is not None and axis.command.owner is program]
+        brakes = [brake for brake in (axis.abandon() for axis in owned) if brake is not None]
+        if brakes:
+            self.start(_rest(brakes), f"halt after {program.name}")
+
+
+async def _rest(brakes: "list[AxisCommand]") -> None:
+    for brake in brakes:
+        await brake.settled()

@@ -83,7 +83,7 @@ class AxisBase:
             state = ErrorId.NOT_ENABLED  # the drive follows the request in the next tick
         if isinstance(state, AxisState):
             return state
-        self._refuse(command, Refusal(state, f"state {self._state.name}"))
+        self._refuse(command, Refusal(state, f"state {self._state!s}"))
         return None
 
     def _enter(self, state: AxisState) -> None:
@@ -114,3 +114,6 @@ class AxisBase:
         else:
             self._tell(Level.DEBUG, Kind.ABORTED, f"{command.name} by {by.name}", 0, command.number)
             command.abort(by)
+
+    def __repr__(self) -> str:
+        return f"<Axis {self.name}: {self._state!s} at {self.set_position:.6g} {self.config.unit}>"

@@ -2,6 +2,7 @@
 
 import enum
 import math
+import numbers
 from dataclasses import dataclass
 from typing import Final, NamedTuple, Protocol
 
@@ -103,10 +104,11 @@ def number(name: str, value: float | None) -> float | None:
     """
     if value is None or type(value) is float:
         return value
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
+    given: object = value
+    if isinstance(given, bool) or not isinstance(given, numbers.Real):
         raise TypeError(f"{name} is {value!r}, a {type(value).__name__}; it must be a number")
     try:
-        return float(value)
+        return float(given)
     except OverflowError:  # an integer beyond all floats: refused as infinite
         return math.inf if value > 0 else -math.inf
 

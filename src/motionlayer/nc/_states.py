@@ -33,6 +33,10 @@ class AxisState(enum.IntEnum):
     CONTINUOUS_MOTION = 7
     SYNCHRONIZED_MOTION = 8
 
+    def __str__(self) -> str:
+        """Return the name that PLCopen gives it."""
+        return _NAMES[self]
+
 
 class AxisEvent(enum.Enum):
     """What can happen to an axis."""
@@ -54,6 +58,18 @@ class AxisEvent(enum.Enum):
 
 NEED_POWER: Final = frozenset({AxisEvent.MOVE, AxisEvent.MOVE_ENDLESS, AxisEvent.HALT, AxisEvent.STOP, AxisEvent.HOME})
 """Commands that a switched-off drive does not take, even before it has followed the request."""
+
+_NAMES: Final = (
+    "Undefined",
+    "Disabled",
+    "StandStill",
+    "ErrorStop",
+    "Stopping",
+    "Homing",
+    "DiscreteMotion",
+    "ContinuousMotion",
+    "SynchronizedMotion",
+)
 
 _S, _E = AxisState, AxisEvent
 

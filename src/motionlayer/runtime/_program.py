@@ -1,51 +1,19 @@
 """Programs and what they wait for.
 
-A program is a coroutine. It may await commands, `run.sleep` and `run.until`; each suspends it until a later tick.
+A program is a coroutine. It may await commands, `run.sleep` and `run.until` among them; each suspends it until a later
+tick.
 Who is due is decided before any program of a tick runs; each runs at most once per tick, in order of start.
 """
 
 import sys
-from collections.abc import Callable, Coroutine, Generator
-from pathlib import Path
+from collections.abc import Coroutine
 from typing import Any, Final, NoReturn
 
 from motionlayer.command import Command
 
-Wait = "Command[Any] | Sleep | Until"
-
 
 class Cancelled(BaseException):
     """Thrown into a program at the place where it waits, when it is cancelled."""
-
-
-class Sleep:
-    """Wait until a tick."""
-
-    def __init__(self, tick: int, seconds: float) -> None:
-        self.tick: Final = tick
-        self._seconds = seconds
-
-    def __await__(self) -> Generator["Sleep", None, None]:
-        yield self
-
-    def __str__(self) -> str:
-        return f"sleep({self._seconds:g})"
-
-
-class Until:
-    """Wait until a predicate holds; it is asked once per tick, before any program runs."""
-
-    def __init__(self, predicate: Callable[[], bool]) -> None:
-        self.predicate: Final = predicate
-
-    def __await__(self) -> Generator["Until", None, None]:
-        yield self
-
-    def __str__(self) -> str:
-        code = getattr(self.predicate, "__code__", None)
-        # The name alone: the text reaches the hash of the run, which must not depend on where a file lies.
-        where = f" at {Path(code.co_filename).name}:{code.co_firstlineno}" if code is not None else ""
-        return f"until(...){where}"
 
 
 class Deadline:
@@ -69,7 +37,7 @@ class Program(Command[Any]):
         super().__init__(name, number=number, owner=owner)
         self.failure: BaseException | None = None
         self.deadlines: list[Deadline] = []
-        self.waits_for: Command[Any] | Sleep | Until | None = None
+        self.waits_for: Command[Any] | None = None
         self.cancelling = False
         self._coroutine = coroutine
 
@@ -87,7 +55,7 @@ class Program(Command[Any]):
         try:
             with _NoLoop():
                 asked = self._coroutine.throw(throw) if throw is not None else self._coroutine.send(None)
-                while not isinstance(asked, (Command, Sleep, Until)):
+                while not isinstance(asked, Command):
                     asked = self._coroutine.throw(_foreign(asked))
         except StopIteration as end:
             self._value = end.value

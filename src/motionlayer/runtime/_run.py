@@ -9,8 +9,9 @@ from motionlayer.command import Ledger
 from motionlayer.event import EventLog
 from motionlayer.runtime._clock import PATIENCE, Watchdog
 from motionlayer.runtime._cycle import Stage, Step, in_order
-from motionlayer.runtime._program import Deadline, Program, Sleep, Until
+from motionlayer.runtime._program import Deadline, Program
 from motionlayer.runtime._scheduler import Scheduler
+from motionlayer.runtime._waits import Sleep, Until
 
 
 class CycleFault(RuntimeError):  # noqa: N818 - the state, as a user would say it
@@ -80,7 +81,7 @@ class Run:
             ValueError: negative, NaN or infinite.
         """
         _check_seconds("sleep", seconds)
-        return Sleep(self.tick + max(1, self._ticks(seconds)), seconds)
+        return Sleep(self._scheduler.waits, self.tick + max(1, self._ticks(seconds)), seconds)
 
     def until(self, predicate: Callable[[], bool]) -> Until:
         """Wait, in a program, until `predicate()` holds; it is asked once per tick before programs run.
@@ -90,7 +91,7 @@ class Run:
         """
         if not callable(predicate):
             raise TypeError(f"until({predicate!r}): give a function, as in until(lambda: axis.set_position > 100)")
-        return Until(predicate)
+        return Until(self._scheduler.waits, predicate, self._ledger.issuer)
 
     @contextlib.contextmanager
     def fail_after(self, seconds: float) -> Iterator[None]:
@@ -118,13 +119,16 @@ class Run:
         *,
         time: float | None = None,
         watch: Callable[[int], None] | None = None,
-    ) -> None:
+    ) -> bool:
         """Run until all programs have ended or the time is over; what still runs then is cancelled.
 
         Args:
             program: started first; an exception that leaves it is raised here in the end.
             time: seconds of the run, from now; without end where left out.
             watch: called with the tick now and then, for a progress bar.
+
+        Returns:
+            True if all programs ended by themselves, False if the time cut them off.
 
         Raises:
             ProgramStuck: a program did not yield.
@@ -146,11 +150,13 @@ class Run:
                     raise watchdog.stuck from None
                 raise
             finally:
+                finished = not self._scheduler.programs
                 self._scheduler.cancel_all()
         if main is not None and main.failure is not None:
             if main in self.failures:
                 self.failures.remove(main)
             raise main.failure
+        return finished
 
     def step(self, ticks: int = 1) -> None:
         """Run a number of ticks, programs or not.

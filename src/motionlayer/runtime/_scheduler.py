@@ -2,11 +2,13 @@
 
 import traceback
 from collections.abc import Callable, Coroutine
-from typing import Any
+from pathlib import Path
+from typing import Any, Final
 
-from motionlayer.command import Command, CommandAborted, CommandError, ErrorId, Ledger, MotionError
+from motionlayer.command import CommandAborted, CommandError, ErrorId, Ledger, MotionError
 from motionlayer.event import Event, EventLog, Kind, Level
-from motionlayer.runtime._program import Cancelled, Program, Sleep, Until
+from motionlayer.runtime._program import Cancelled, Program
+from motionlayer.runtime._waits import Waits
 
 
 class Scheduler:
@@ -23,6 +25,8 @@ class Scheduler:
         """Programs that have not ended, in order of start."""
         self.failures: list[Program] = []
         """Programs that failed and that nobody awaited."""
+        self.waits = Waits(ledger)
+        """Sleeps and predicates that somebody waits for."""
         self._ledger = ledger
         self._events = events
         self._on_failure = on_failure
@@ -46,6 +50,7 @@ class Scheduler:
 
     def run(self, tick: int) -> None:
         """Resume everyone who is due in this tick."""
+        self.waits.end(tick)
         due = [(program, throw) for program in self.programs for is_due, throw in [self._due(program, tick)] if is_due]
         for program, throw in due:
             if program.busy:
@@ -56,8 +61,8 @@ class Scheduler:
         for program in reversed(self.programs.copy()):
             if program.busy:
                 self._resume(program, Cancelled())
-            if program.busy:
-                self._close(program)
+        for program in self.programs.copy():  # those that wait again, and those that a failure has just started
+            self._close(program)
 
     def _close(self, program: Program) -> None:
         """Close a program that waits again although the run is over."""
@@ -74,25 +79,12 @@ class Scheduler:
         wait = program.waits_for
         if wait is None:
             return True, None
-        if isinstance(wait, Sleep):
-            met = tick >= wait.tick
-        elif isinstance(wait, Until):
-            self._ledger.issuer = program  # so that the watchdog can name it
-            try:
-                met = bool(wait.predicate())
-            except Exception as error:  # noqa: BLE001 - the program's own fault, raised where it waits
-                return True, error
-            finally:
-                self._ledger.issuer = None
-        else:
-            met = program.number not in self._ended_waits or self._ended_waits[program.number] < tick
-        if met:
+        if self._ended_waits[program.number] < tick:
             return True, None
         late = next((deadline for deadline in program.deadlines if tick >= deadline.tick), None)
         if late is None:
             return False, None
-        what = wait.name if isinstance(wait, Command) else str(wait)
-        return True, TimeoutError(f"{program.name}: {late.seconds:g} s passed while waiting for {what}")
+        return True, TimeoutError(f"{program.name}: {late.seconds:g} s passed while waiting for {wait.name}")
 
     def _resume(self, program: Program, throw: BaseException | None) -> None:
         self._ledger.issuer = program
@@ -117,15 +109,13 @@ class Scheduler:
 
     def _watch(self, program: Program) -> None:
         """Note when the command that a program waits for ends: it is due from the tick after."""
-        wait = program.waits_for
-        if not isinstance(wait, Command):
-            return
-        number = program.number
+        wait, number = program.waits_for, program.number
+        assert wait is not None
         self._ended_waits[number] = _NEVER
 
         def ended() -> None:
             if program.waits_for is wait:
-                self._ended_waits[number] = self._ledger.tick
+                self._ended_waits[number] = self._ledger.tick - (1 if self.waits.asking else 0)
 
         wait.on_end(ended, lambda: program.waits_for is wait)
 
@@ -156,14 +146,15 @@ class Scheduler:
         self._events.add(Event(self._ledger.tick, level, kind, source, text, code, program.number))
 
 
-_NEVER = 2**62
+_NEVER: Final = 2**62
+PACKAGE: Final = str(Path(__file__).parent.parent)
 
 
 def describe(failure: BaseException) -> str:
-    """Return an exception in one line, with the place in the program where it left."""
+    """Return an exception in one line, with the way through the program to the place where it left."""
     frames = traceback.extract_tb(failure.__traceback__)
-    own = [frame for frame in frames if "motionlayer" not in frame.filename.split("/")[-3:-1]]
-    last = own[-1] if own else None
-    where = f" (line {last.lineno} in {last.name})" if last is not None else ""
+    own = [frame for frame in frames if not frame.filename.startswith(PACKAGE)]
+    # The name alone: the text reaches the hash of the run, which must not depend on where a file lies.
+    way = " > ".join(f"{Path(frame.filename).name}:{frame.lineno} in {frame.name}" for frame in own[-3:])
     kind = "" if isinstance(failure, (CommandError, CommandAborted)) else f"{type(failure).__name__}: "
-    return f"{kind}{failure}{where}"
+    return f"{kind}{failure}" + (f" ({way})" if way else "")
