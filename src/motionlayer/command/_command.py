@@ -30,17 +30,22 @@ class MotionError:
     source: str
     detail: str = ""
 
-    def __str__(self) -> str:
+    @property
+    def text(self) -> str:
+        """What happened and the way out, without the source."""
         text, advice = ERRORS[self.id]
         detail = f" ({self.detail})" if self.detail else ""
-        return f"{self.source}: {text}{detail} [0x{self.id:04X}]; {advice}"
+        return f"{text}{detail} [0x{self.id:04X}]; {advice}"
+
+    def __str__(self) -> str:
+        return f"{self.source}: {self.text}"
 
 
 class CommandError(Exception):
     """Raised where a command that ended in error is awaited; `error` says why."""
 
     def __init__(self, command: "Command[Any]", error: MotionError) -> None:
-        super().__init__(f"{command.name}: {error}")
+        super().__init__(f"{command.name}: {error.text}")
         self.command = command
         self.error = error
 

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from motionlayer.machine._description import FORMATS, IDENTIFIER, SIGNALS
 from motionlayer.machine._problem import Problem, field_text, value_text
+from motionlayer.machine._program_file import function_problem
 
 _FORMATS = ", ".join(str(number) for number in FORMATS)
 
@@ -105,6 +106,14 @@ def _file_problems(name: str, program: object, folder: Path) -> Iterator[Problem
     if not is_file:
         problem = "not a file" if exists else f"no such file in the folder {value_text(str(folder))}"
         yield Problem(("program", name, "file"), value_text(file), problem=problem)
+        return
+    function = program.get("function", "main") if isinstance(program, dict) else None
+    if isinstance(function, str) and function.isidentifier():
+        found = function_problem(folder / file, function)
+        if found is not None:
+            field, problem, hint = found
+            value = value_text(file if field == "file" else function)
+            yield Problem(("program", name, field), value, problem=problem, hint=hint)
 
 
 def _table(data: object, key: str) -> dict[str, object]:
