@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 
-.PHONY: demo test check lock clean
+.PHONY: demo test check campaign profile reference lock clean
 
 demo: $(READY)
 	@mkdir -p out
@@ -16,6 +16,19 @@ test: $(READY)
 
 check: $(READY)
 	$(BIN)/python scripts/check.py
+
+# generated pages of the documentation, after a change of tables, options or keys
+reference: $(READY)
+	$(BIN)/python scripts/reference.py
+
+# make campaign NAME=planning|life|mutation [COUNT=1e6] [SEED=1] [CASE=1234] [FRESH=1]
+campaign: $(READY)
+	$(BIN)/python scripts/campaign.py --name "$(NAME)" $(if $(COUNT),--count $(COUNT)) $(if $(SEED),--seed $(SEED)) \
+		$(if $(CASE),--case $(CASE)) $(if $(FRESH),--fresh)
+
+# make profile CASE=plan|cycle|override|trace|start
+profile: $(READY)
+	$(BIN)/python scripts/profile_case.py "$(CASE)"
 
 $(READY): requirements.lock pyproject.toml
 	$(PYTHON) -m venv $(VENV)

@@ -12,6 +12,7 @@ __version__ = "0.1.0.dev0"
 
 if TYPE_CHECKING:
     from motionlayer.command import Command, CommandAborted, CommandError, MotionError, all_of, any_of
+    from motionlayer.drive import Fault
     from motionlayer.machine import Machine, MachineError, Simulation
     from motionlayer.nc import AxisState, Direction, stopping
     from motionlayer.record import Trace
@@ -23,6 +24,7 @@ _HOME = {
     "MotionError": "command",
     "all_of": "command",
     "any_of": "command",
+    "Fault": "drive",
     "Machine": "machine",
     "MachineError": "machine",
     "Simulation": "machine",
@@ -38,6 +40,7 @@ __all__ = [
     "CommandAborted",
     "CommandError",
     "Direction",
+    "Fault",
     "Machine",
     "MachineError",
     "MotionError",

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from motionlayer.bench import GROUPS, Effort, Failed, Figure, Goal, Peer, Row, Skipped, _peers, run
+from motionlayer.bench import GROUPS, Effort, Environment, Failed, Figure, Goal, Peer, Row, Skipped, run
+from motionlayer.bench._environment import PINS
 from motionlayer.bench._report import Result, rounded, table
 from motionlayer.bench._run import measure
 
@@ -25,14 +26,23 @@ def failed(_effort: Effort) -> Figure:
 
 
 GOOD = Row("a.good", "µs", Goal(20), good)
+PEER = Row("b.peer", "µs", Goal(200), good, Peer("ruckig", "all of it", "plan", lambda _effort: {}))
 SKIPPED = Row("a.skipped", "s", Goal(1), skipped)
 FAILED = Row("a.failed", "s", Goal(1), failed)
+
+
+@pytest.fixture(autouse=True)
+def history(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Keep the user's history out of it; return the one in place of it."""
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+    return tmp_path / "data" / "motionlayer" / "bench.jsonl"
 
 
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """Put groups of quick rows in place of the real ones."""
-    monkeypatch.delitem(GROUPS, "core")
+    for group in list(GROUPS):
+        monkeypatch.delitem(GROUPS, group)
     monkeypatch.setitem(GROUPS, "fine", (GOOD, SKIPPED))
     monkeypatch.setitem(GROUPS, "broken", (FAILED, GOOD))
 
@@ -41,7 +51,7 @@ def test_an_unknown_group_is_one_error_that_lists_the_groups(capsys: pytest.Capt
     assert run("cor", None) == 2
     out, err = capsys.readouterr()
     assert out == ""
-    assert err.splitlines() == ["motionlayer bench: no group 'cor'; there are: core"]
+    assert err.splitlines() == ["motionlayer bench: no group 'cor'; there are: core, numerics"]
 
 
 @pytest.mark.usefixtures("quick")
@@ -84,10 +94,9 @@ def test_a_file_that_cannot_be_written_is_one_error(tmp_path: Path, capsys: pyte
 
 
 def test_the_table_shows_missed_goals_and_empty_cells() -> None:
-    peer = Row("b.peer", "µs", Goal(200), good, Peer("ruckig", "all of it"))
-    lines = table([Result(GOOD, 123.456), Result(peer, 1.0), Result(SKIPPED, None)], ["a note"]).splitlines()
+    lines = table([Result(GOOD, 123.456), Result(PEER, 1.0), Result(SKIPPED, None)], ["a note"]).splitlines()
     assert lines[1].split() == ["a.good", "123", "µs", "≤", "20", "missed"]
-    assert lines[2].endswith(f"ruckig {_peers.PINS['ruckig']}, all of it")
+    assert lines[2].endswith(f"ruckig {PINS['ruckig']}, all of it")
     assert lines[3].split() == ["a.skipped", "s", "≤", "1"]
     assert lines[-2:] == ["", "a note"]
 
@@ -98,10 +107,9 @@ def test_values_have_three_digits(value: float | None, shown: float | None) -> N
 
 
 def test_without_the_peers_their_cells_are_empty(tmp_path: Path) -> None:
-    row = Row("b.peer", "µs", Goal(200), good, Peer("ruckig", "all of it"))
-    results, notes = measure([GOOD, row], TINY, tmp_path / "no" / "python")
+    results, notes = measure([GOOD, PEER], TINY._replace(peers=Environment(tmp_path / "no" / "python")))
     assert [result.peer_value for result in results] == [None, None]
     assert [result.value for result in results] == [123.456, 123.456]
     assert not any(result.failed for result in results)
     assert len(notes) == 1
-    assert notes[0].startswith("no peers: ")
+    assert notes[0].startswith("no ruckig: ")

@@ -103,6 +103,44 @@ def test_a_trace_that_cannot_be_judged(machine: Path) -> None:
     assert (done.exit_code, done.stdout.split(":")[0]) == (ExitCode.TRACE, "REFUSED")
 
 
+def _halves(path: str) -> tuple[bytes, bytes]:
+    data = Path(path).read_bytes()
+    return data[: len(data) // 2], data[len(data) // 2 :]
+
+
+def test_an_incomplete_trace_is_judged_but_not_passed_over(machine: Path) -> None:
+    call("run", machine, *program("shuttle"), "--time", 5, "--trace", "run.trace")
+    Path("cut.trace").write_bytes(_halves("run.trace")[0])
+    done = call("verify", "cut.trace")
+    assert (done.exit_code, done.stdout.split(":")[0]) == (ExitCode.TRACE, "INCOMPLETE")
+    assert "its writer was cut short; judged up to tick" in done.stdout
+    assert done.stderr == "Error: cut.trace is incomplete; --partial accepts the part that was judged\n"
+    done = call("verify", "cut.trace", "--partial")
+    assert (done.exit_code, done.stdout.split(":")[0], done.stderr) == (ExitCode.OK, "INCOMPLETE", "")
+    done = call("plot", "cut.trace")
+    assert done.exit_code == ExitCode.OK
+    assert done.stderr == ("Warning: cut.trace is incomplete, its writer was cut short; the page shows what was read\n")
+
+
+@pytest.mark.parametrize("option", [[], ["--partial"]])
+@pytest.mark.parametrize("kind", ["flipped", "zeroed", "followed"])
+def test_a_damaged_trace_is_refused(machine: Path, kind: str, option: list[str]) -> None:
+    call("run", machine, *program("shuttle"), "--time", 5, "--trace", "run.trace")
+    first, second = _halves("run.trace")
+    damaged = {
+        "flipped": first + bytes([second[0] ^ 1]) + second[1:],
+        "zeroed": first + bytes(1000) + second[1000:],
+        "followed": first + second + b"junk",
+    }
+    Path("damaged.trace").write_bytes(damaged[kind])
+    done = call("verify", "damaged.trace", *option)
+    assert (done.exit_code, done.stdout.split(":")[0]) == (ExitCode.TRACE, "REFUSED")
+    assert "cannot judge: the file is damaged: " in done.stdout
+    done = call("plot", "damaged.trace")
+    assert done.exit_code == ExitCode.OK
+    assert done.stderr.startswith("Warning: damaged.trace is damaged: ")
+
+
 def test_a_page_never_replaces_its_trace(machine: Path) -> None:
     call("run", machine, "--time", 0.1, "--trace", "run.html")
     done = call("plot", "run.html")

@@ -11,6 +11,8 @@ GOOD = (Path(__file__).parent / "good.toml").read_text(encoding="utf-8")  # sets
 Write = Callable[[str], Path]
 
 HEAD = 'format = 1\nname = "m"\n'
+SERVO = '[axis.X.drive]\nkind = "servo"\nposition_gain = 50\n'
+FAULT = SERVO + '[[fault]]\naxis = "X"\nkind = "blocked"\ntick = 3\n'
 
 
 def findings_of(write: Write, text: str) -> tuple[Finding, ...]:
@@ -68,7 +70,36 @@ BAD = [
     ),
     (HEAD + AXIS + '[axis.X.home]\nmode = "switch"\n', 7, "axis.X.home.switch", "missing; must be a finite"),
     (HEAD + AXIS + '[axis.X.home]\nmode = "swich"\n', 8, "axis.X.home.mode", 'one of "direct", "switch"'),
-    (HEAD + AXIS + '[axis.X.drive]\nkind = "servo"\n', 8, "axis.X.drive.kind", 'must be "ideal"'),
+    (HEAD + AXIS + '[axis.X.drive]\nkind = "step"\n', 8, "axis.X.drive.kind", 'one of "ideal", "servo"'),
+    # drives
+    (HEAD + AXIS + '[axis.X.drive]\nkind = "servo"\n', 7, "axis.X.drive.position_gain", 'kind = "servo" needs it'),
+    (HEAD + AXIS + "[axis.X.drive]\nbacklash = 1\n", 8, "axis.X.drive.backlash", "an ideal drive has no such thing"),
+    (HEAD + AXIS + SERVO + "backlash = -1\n", 10, "axis.X.drive.backlash", "= -1: must be at least 0 (u)"),
+    (
+        HEAD + AXIS + SERVO + "dead_time = 0.0015\n",
+        10,
+        "axis.X.drive.dead_time",
+        "a whole number of base cycles of 0.001",
+    ),
+    (HEAD + AXIS + SERVO + "ready_delay = 2\n", 10, "axis.X.drive.ready_delay", "at most 1000 base cycles = 1 (s)"),
+    (HEAD + AXIS + SERVO.replace("50", "2000"), 9, "axis.X.drive.position_gain", "must be less than 2000, where"),
+    (HEAD + AXIS + SERVO + "velocity_feed_forward = 1.5\n", 10, "axis.X.drive.velocity_feed_forward", "from 0 to 1"),
+    (
+        HEAD + AXIS + "[axis.X.monitor]\ntarget_timeout = 1\n",
+        8,
+        "axis.X.monitor.target_timeout",
+        "without target_window",
+    ),
+    (HEAD + AXIS + "[axis.X.monitor]\nsoftware_limits = 1\n", 8, "axis.X.monitor.software_limits", "true or false"),
+    (HEAD + AXIS + '[group.all]\naxes = ["X", "Y"]\n', 8, "group.all.axes[1]", '= "Y": no such axis'),
+    (HEAD + AXIS + "[group.all]\naxes = []\n", 8, "group.all.axes", "with at least one entry"),
+    (HEAD + AXIS + FAULT.replace("tick = 3\n", ""), 10, "fault[0]", "no tick or time"),
+    (HEAD + AXIS + FAULT + "time = 1.0\n", 10, "fault[0]", "one of tick and time"),
+    (HEAD + AXIS + FAULT.replace("blocked", "bolcked"), 12, "fault[0].kind", "must be one of"),
+    (HEAD + AXIS + FAULT.replace('"X"', '"Z"'), 11, "fault[0].axis", "no such axis"),
+    (HEAD + AXIS + FAULT.partition("\n[[")[2].join(["[[", ""]), 8, "fault[0].axis", "its drive is ideal"),
+    (HEAD + AXIS + FAULT + "value = 1.0\n", 14, "fault[0].value", "only an encoder_jump takes one"),
+    (HEAD + AXIS + FAULT.replace("blocked", "encoder_jump"), 10, "fault[0].value", "missing"),
     # keys and tables
     (HEAD + AXIS + "max_velocty = 1\n", 7, "axis.X.max_velocty", "unknown key; did you mean max_velocity?"),
     (HEAD + AXIS + "qqqq = 1\n", 7, "axis.X.qqqq", "max_velocity, max_acceleration"),

@@ -80,6 +80,9 @@ def test_schema_describes_every_field_and_asks_only_for_what_has_no_default() ->
         "AxisDescription": ["max_velocity", "max_acceleration", "max_jerk"],
         "HomeDescription": [],
         "DriveDescription": [],
+        "FaultDescription": ["axis", "kind"],
+        "GroupDescription": ["axes"],
+        "MonitorDescription": [],
         "ProgramDescription": ["file"],
         "TraceDescription": [],
     }

@@ -38,7 +38,9 @@ def test_a_program_that_cannot_be_started_is_found(tmp_path: Path, text: str, li
     assert said in str(finding)
 
 
-@pytest.mark.parametrize("text", ["async def pick(run): ...\n", "from lib import pick\n", "from lib import *\n", "pick = make()\n"])
+@pytest.mark.parametrize(
+    "text", ["async def pick(run): ...\n", "from lib import pick\n", "from lib import *\n", "pick = make()\n"]
+)
 def test_what_only_running_it_would_tell_is_left_to_the_run(tmp_path: Path, text: str) -> None:
     (tmp_path / "m.toml").write_text(MACHINE)
     (tmp_path / "p.py").write_text(text)

@@ -123,6 +123,30 @@ def test_a_start_inside_excuses_nothing() -> None:
         assert check(pieces, len(pieces), 100.0, False, *limits) == ACCELERATION_LIMIT
 
 
+FAST = (0.0, 150.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("start", "way", "fault"),
+    [
+        (FAST, LIMITS._replace(velocity=150.0), VELOCITY_LIMIT),  # goes on as fast as it came
+        (FAST, LIMITS._replace(velocity=101.0), VELOCITY_LIMIT),  # comes nearly back
+        (FAST, LIMITS._replace(deceleration=450.0), VELOCITY_LIMIT),  # comes back slowly
+        (FAST, LIMITS._replace(jerk=9000.0), VELOCITY_LIMIT),
+        ((0.0, -150.0, 0.0), LIMITS._replace(velocity=150.0), VELOCITY_LIMIT),  # comes back inside, leaves again
+        ((0.0, 0.0, 1100.0), LIMITS._replace(acceleration=1100.0), ACCELERATION_LIMIT),
+        ((0.0, 0.0, 1100.0), LIMITS._replace(jerk=9000.0), ACCELERATION_LIMIT),  # is taken back slowly
+        ((0.0, 60.0, -700.0), LIMITS._replace(deceleration=700.0), ACCELERATION_LIMIT),
+    ],
+)
+def test_a_start_outside_excuses_its_way_back_only(start: tuple[float, float, float], way: Limits, fault: int) -> None:
+    for target in (TARGET, 1000.0):
+        pieces = plan_position(*start, target, LIMITS).pieces
+        assert verdict(pieces, target=target) == FINE
+    pieces = plan_position(*start, 1000.0, way).pieces
+    assert verdict(pieces, target=1000.0) == fault
+
+
 def test_every_fault_has_its_text() -> None:
     assert len(set(REASONS.values())) == len(REASONS)
     assert all(fault < 0 for fault in REASONS)

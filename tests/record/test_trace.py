@@ -159,8 +159,30 @@ def test_a_trace_is_a_mapping_in_header_order() -> None:
     assert repr(trace) == "<Trace in memory: 3 signals x 3 ticks of 0.001 s, 1 plans, 1 events>"
     with pytest.raises(ValueError, match="read-only"):
         trace["a"][0] = 1.0
-    with pytest.raises(KeyError):
+    with pytest.raises(KeyError, match="no signal 'd' in the trace"):
         trace["d"]
+    assert trace.get("d") is None
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("Ram.set_postion", "no signal 'Ram.set_postion' in the trace; nearest: Ram.set_position, "),
+        ("Rma.state", "no axis 'Rma' in the trace; nearest: Ram.state, "),
+        ("state", "no signal 'state' in the trace; nearest: "),
+    ],
+)
+def test_unknown_signals_are_refused_with_the_nearest_ones(name: str, said: str) -> None:
+    trace = Trace.from_chunks(write(np.zeros((1, 3)), ["Ram.set_velocity", "Ram.set_position", "Ram.state"]).chunks)
+    for ask in (trace.__getitem__, lambda key: trace.replace({key: [0.0]})):
+        with pytest.raises(KeyError) as caught:
+            ask(name)
+        assert caught.value.args[0].startswith(said)
+
+
+def test_a_trace_without_signals_has_no_nearest() -> None:
+    with pytest.raises(KeyError, match="the trace has no signals"):
+        Trace.from_chunks([*TraceWriter(None, header([])).chunks])["X.state"]
 
 
 def test_replace_gives_another_trace(tmp_path: Path) -> None:

@@ -40,7 +40,7 @@ def test_an_exception_ends_the_program_halts_its_axes_and_lets_others_go_on() ->
     failing, going = run.start(bad(), "bad"), run.start(good(), "good")
     run.run()
     assert failing.error is not None
-    assert failing.error.id is ErrorId.INTERNAL
+    assert failing.error.id is ErrorId.PROGRAM_FAILED
     assert isinstance(failing.failure, LookupError)
     assert run.failures == [failing]
     assert going.done

@@ -8,6 +8,7 @@ import time
 import pytest
 
 from motionlayer import Machine, Simulation
+from motionlayer.command import CommandError
 from motionlayer.runtime import Cancelled, CycleFault, ProgramStuck
 from tests.machines import machine, one_axis, ready
 
@@ -192,3 +193,26 @@ def test_the_others_are_cancelled_when_a_program_is_stuck() -> None:
     run.start(other())
     stuck_in(run)
     assert order == ["cancelled"]
+
+
+def test_a_program_cannot_run_ticks_itself() -> None:
+    run, _ = ready()
+
+    async def program() -> None:
+        with pytest.raises(RuntimeError, match=r"await run\.sleep"):
+            run.step()
+
+    run.run(program())
+
+
+def test_an_awaited_program_that_fails_says_so() -> None:
+    run, _ = ready()
+
+    async def child() -> None:
+        raise LookupError("lost")
+
+    async def parent() -> None:
+        with pytest.raises(CommandError, match=r"a program failed .*LookupError: lost.*0xF000"):
+            await run.start(child())
+
+    run.run(parent())

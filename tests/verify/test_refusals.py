@@ -94,7 +94,7 @@ def test_a_drive_with_dynamics_is_left_to_others() -> None:
     assert verify(lagging).findings
     report = verify(changed(lagging, header=header))
     assert report.ok
-    assert report.notes == ("X: the actual position of a drive of kind 'servo' is not judged",)
+    assert report.notes == ("X: the lag of the servo drive is not judged, its monitor has no limit for it",)
 
 
 def test_the_report_reads_well() -> None:

@@ -48,11 +48,34 @@ def test_two_axes_are_judged_side_by_side() -> None:
 
 def test_an_incomplete_trace_is_judged_and_named() -> None:
     bench = everything("mm")
-    report = verify(join([bench], whole=False))
-    assert report.ok
-    assert any("incomplete" in note for note in report.notes)
+    trace = join([bench], whole=False)
+    report = verify(trace)
+    assert (report.ok, report.complete) == (True, False)
+    last = len(trace.ticks) - 1
+    note = f"the trace is incomplete, its writer was cut short; judged up to tick {last} ({last / 1000:.6f} s)"
+    assert report.notes == (note,)
+    assert str(report).startswith("INCOMPLETE: 1 axes (X), ")
+    with pytest.raises(AssertionError, match="its writer was cut short"):
+        assert_valid(trace)
+    assert_valid(trace, partial=True)
     bench.rows[100][0] += 1e-6
-    assert verify(join([bench], whole=False)).findings
+    wrong = join([bench], whole=False)
+    assert verify(wrong).findings
+    with pytest.raises(AssertionError, match="NOT VALID"):
+        assert_valid(wrong, partial=True)
+
+
+def test_a_damaged_trace_is_refused_unless_a_part_is_enough() -> None:
+    trace = changed(recorded("mm"), complete=False, damage="chunk 7: broken")
+    report = verify(trace)
+    assert (report.ok, report.axes, report.notes) == (False, (), ())
+    assert report.refused == ("the file is damaged: chunk 7: broken",)
+    with pytest.raises(AssertionError, match="REFUSED"):
+        assert_valid(trace)
+    part = verify(trace, partial=True)
+    assert (part.ok, part.complete, part.axes) == (True, False, ("X",))
+    assert part.notes[0].startswith("the file is damaged: chunk 7: broken; judged up to tick ")
+    assert_valid(trace, partial=True)
 
 
 def _drive(bench: Bench, operation: str, share: float, ticks: int | None) -> None:

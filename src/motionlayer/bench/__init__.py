@@ -9,6 +9,7 @@ there is one, the peer. How numbers come about:
   subtracted. The median of several.
 - Recording runs in two threads. What counts is the processor time of the cycle thread; the wall time, which in a
   simulation includes waiting for the writer, is told in a note.
+- Numbers that must hold rather than be quick (`numerics`) are the worst of many random cases, made from a seed.
 - Peers are packages from PyPI in pinned versions. They live in an environment of their own in the user's cache
   folder, set up on first use. A peer that cannot be had leaves its cell empty.
 
@@ -16,10 +17,25 @@ A peer does not do the same as we do, only the nearest it offers: `ruckig` plans
 machine or a check; `pyplcopen` runs an axis with its state machine per call, which is more than sampling a row and
 about what a complete cycle is.
 
+Every run is appended to a history file with date, commit and computer.
+
 This part and the edge of `runtime` are the only ones that look at the wall clock.
 """
 
+from motionlayer.bench._environment import Environment
 from motionlayer.bench._row import Effort, Failed, Figure, Goal, Peer, Row, Skipped
-from motionlayer.bench._run import GROUPS, run
+from motionlayer.bench._run import GROUPS, run, show_history
 
-__all__ = ["GROUPS", "Effort", "Failed", "Figure", "Goal", "Peer", "Row", "Skipped", "run"]
+__all__ = [
+    "GROUPS",
+    "Effort",
+    "Environment",
+    "Failed",
+    "Figure",
+    "Goal",
+    "Peer",
+    "Row",
+    "Skipped",
+    "run",
+    "show_history",
+]

@@ -4,7 +4,7 @@ import itertools
 from functools import partial
 from typing import Final
 
-from motionlayer.bench import _command, _load, _recording
+from motionlayer.bench import _command, _load, _peers, _recording
 from motionlayer.bench._row import MICRO, Effort, Failed, Figure, Goal, Peer, Row
 from motionlayer.bench._timing import median_us
 from motionlayer.event import Level
@@ -51,7 +51,7 @@ def plan(effort: Effort) -> Figure:
         return figure
 
 
-AXES_IN_PYTHON: Final = Peer("pyplcopen", "1000 x AxisSim.cycle()")
+AXES_IN_PYTHON: Final = Peer("pyplcopen", "1000 x AxisSim.cycle()", "cycle", _peers.axes)
 
 ROWS: Final = (
     Row("cycle.axes_10", MICRO, Goal(20), partial(cycle, axes=10)),
@@ -59,7 +59,7 @@ ROWS: Final = (
     Row("cycle.axes_6000", MICRO, Goal(200), partial(cycle, axes=6000)),
     Row("sample.rows_1000", MICRO, Goal(5), partial(sample, rows=1000), AXES_IN_PYTHON),
     Row("sample.rows_6000", MICRO, Goal(12), partial(sample, rows=6000)),
-    Row("plan.move", MICRO, Goal(25), plan, Peer("ruckig", "calculate() alone")),
+    Row("plan.move", MICRO, Goal(25), plan, Peer("ruckig", "calculate() alone", "plan", _peers.moves)),
     Row("trace.signals_1000", MICRO, Goal(5), _recording.trace),
     Row("demo.realtime_factor", "x", Goal(50, at_least=True), _command.demo),
     Row("start.warm", "s", Goal(1.5), _command.start_warm),

@@ -1,6 +1,7 @@
 """What the measured machines do: the same limits and targets for us and the peers."""
 
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
@@ -30,12 +31,14 @@ def targets(count: int) -> list[float]:
     return found
 
 
-def machine(axes: int, signals: tuple[str, ...] = ("*",)) -> Machine:
-    """Return a machine of equal axes that records these signals."""
+def machine(
+    axes: int, signals: tuple[str, ...] = ("*",), settings: Mapping[str, object] = MappingProxyType({})
+) -> Machine:
+    """Return a machine of equal axes, with these settings, that records these signals."""
     description: dict[str, Any] = {
         "format": 1,
         "name": "bench",
-        "axis": {f"A{number}": LIMITS for number in range(axes)},
+        "axis": {f"A{number}": {**LIMITS, **settings} for number in range(axes)},
         "trace": {"signals": list(signals)},
     }
     return Machine.from_dict(description)

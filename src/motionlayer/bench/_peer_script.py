@@ -1,6 +1,6 @@
 """Measure the peers. Runs with the interpreter of their environment, where motionlayer is not installed.
 
-Reads the work as JSON from stdin; prints by package `{"us": median}` or `{"missing": why}`.
+Reads a job and its work as JSON from stdin; prints the value. Whatever fails is told by the last line of stderr.
 """
 
 import gc
@@ -60,20 +60,32 @@ def ruckig(work: dict[str, Any]) -> float:
     return statistics.median(times) / 1e3
 
 
-MEASURES: dict[str, Callable[[dict[str, Any]], float]] = {"pyplcopen": pyplcopen, "ruckig": ruckig}
+def longest_rest_to_rest(work: dict[str, Any]) -> float:
+    """Return by how much the longest plan is over the optimum, relative; in units of the limits' V and A."""
+    package = importlib.import_module("ruckig")
+    planner, given, way = package.Ruckig(1), package.InputParameter(1), package.Trajectory(1)
+    given.max_velocity, given.max_acceleration = [1.0], [1.0]
+    longest = float("-inf")
+    for distance, deceleration, jerk, optimum in work["cases"]:
+        given.target_position, given.min_acceleration, given.max_jerk = [distance], [-deceleration], [jerk]
+        planner.calculate(given, way)
+        longest = max(longest, way.duration / optimum - 1.0)
+    return longest
+
+
+JOBS: dict[str, Callable[[dict[str, Any]], float | list[float]]] = {
+    "cycle": pyplcopen,
+    "cycle by axes": lambda work: [pyplcopen({**work, "axes": axes}) for axes in work["axes"]],
+    "plan": ruckig,
+    "rest to rest": longest_rest_to_rest,
+}
 
 
 def main() -> None:
-    """Measure what is asked for; one peer that fails leaves the others alone."""
+    """Measure what is asked for."""
     work = json.load(sys.stdin)
     gc.disable()
-    answers: dict[str, dict[str, str | float]] = {}
-    for name in work["packages"]:
-        try:
-            answers[name] = {"us": MEASURES[name](work)}
-        except Exception as error:  # noqa: BLE001 - whatever it is, this peer is missing
-            answers[name] = {"missing": f"{type(error).__name__}: {error}".strip().splitlines()[0]}
-    json.dump(answers, sys.stdout)
+    json.dump(JOBS[work.pop("job")](work), sys.stdout)
 
 
 if __name__ == "__main__":

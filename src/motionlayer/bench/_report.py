@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from motionlayer.bench._peers import PINS
+from motionlayer.bench._environment import PINS
 from motionlayer.bench._row import Row
 
 HEADING: Final = ("name", "value", "unit", "goal", "peer", "peer value")

@@ -2,7 +2,9 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
+
+from motionlayer.bench._environment import Environment
 
 
 class Skipped(Exception):  # noqa: N818 - nothing is wrong
@@ -19,10 +21,12 @@ class Effort(NamedTuple):
     Attributes:
         samples: calls inside the process, >= 1.
         runs: processes started, >= 1.
+        peers: where the peers are.
     """
 
     samples: int = 2000
     runs: int = 5
+    peers: Environment = Environment()
 
 
 class Figure(NamedTuple):
@@ -48,10 +52,19 @@ class Goal:
 
 
 class Peer(NamedTuple):
-    """What a row is compared with: a package in `PINS`, and what of it is measured. Same unit as the row."""
+    """What a row is compared with, in the same unit.
+
+    Attributes:
+        package: key of `PINS`.
+        what: of it is measured.
+        job: of the peers' script; one that several rows share is done once.
+        work: returns what the job is given.
+    """
 
     package: str
     what: str
+    job: str
+    work: Callable[[Effort], dict[str, Any]]
 
 
 @dataclass(frozen=True, slots=True)

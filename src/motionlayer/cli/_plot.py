@@ -23,5 +23,9 @@ def plot(trace: Path, output: Path | None) -> None:
 
     target = output or trace.with_suffix(".html")
     refuse_overwriting([target], [trace])
-    draw(load_trace(trace), target)
+    loaded = load_trace(trace)
+    draw(loaded, target)
     click.echo(f"plot        {target}")
+    if not loaded.complete:
+        what = f"damaged: {loaded.damage}" if loaded.damage else "incomplete, its writer was cut short"
+        click.echo(f"Warning: {trace} is {what}; the page shows what was read", err=True)

@@ -4,10 +4,19 @@ import math
 from typing import NamedTuple
 
 from motionlayer.command import Ledger
-from motionlayer.drive import IdealDrives, ReferenceSwitch
+from motionlayer.drive import Fault, IdealDrives, ReferenceSwitch, Servo, ServoDrives
 from motionlayer.event import EventLog
 from motionlayer.machine._description import AxisDescription, Description
-from motionlayer.nc import Axis, AxisConfig, AxisStage, HomeConfig, HomingMode
+from motionlayer.nc import (
+    Axis,
+    AxisConfig,
+    AxisStage,
+    ErrorGroup,
+    GroupReaction,
+    HomeConfig,
+    HomingMode,
+    MonitorConfig,
+)
 from motionlayer.profile import MAX_PIECES, Limits
 from motionlayer.runtime import Stage, Step
 from motionlayer.store import Q, Store
@@ -22,29 +31,33 @@ class Parts(NamedTuple):
     ledger: Ledger
     events: EventLog
     axes: dict[str, Axis]
+    servos: ServoDrives
     stages: list[Stage]
 
 
-def build(description: Description) -> Parts:
-    """Build all parts of a machine, at rest and without power, before tick 0."""
+def build(description: Description, seed: int = 0) -> Parts:
+    """Build all parts of a machine, at rest and without power, before tick 0; noise comes from the seed."""
     entries = description.axis
     store = Store(len(entries), dt=description.base_cycle_ns * 1e-9, max_pieces=MAX_PIECES)
     starts = [entry.start_position for entry in entries.values()]
     store.table[Q.SET_P] = store.table[Q.ACTUAL_P] = starts
-    drives = IdealDrives(store, range(len(entries)), [_switch(entry) for entry in entries.values()])
+    ideals, servos = _ideal_drives(store, description), _servo_drives(store, description, seed)
     ledger, events = Ledger(), EventLog()
     axes = {
         name: Axis(_axis_config(name, entry), column, store, ledger, events)
         for column, (name, entry) in enumerate(entries.items())
     }
-    stage = AxisStage(list(axes.values()), store)
+    stage = AxisStage(list(axes.values()), store, _groups(description))
     stages = [
-        Stage(Step.INPUTS, "drives", drives.inputs),
+        Stage(Step.INPUTS, "ideal drives", ideals.inputs),
+        Stage(Step.INPUTS, "servo drives", servos.inputs),
         Stage(Step.INPUTS, "axes", stage.inputs),
         Stage(Step.ACCEPT, "axes", stage.accept),
         Stage(Step.MOTION, "axes", stage.motion),
     ]
-    return Parts(store, ledger, events, axes, stages)
+    kinds = {entry.drive.kind for entry in entries.values()}
+    stages = [one for one in stages if not one.name.endswith(" drives") or one.name.split()[0] in kinds]
+    return Parts(store, ledger, events, axes, servos, stages)
 
 
 def _axis_config(name: str, entry: AxisDescription) -> AxisConfig:
@@ -58,7 +71,65 @@ def _axis_config(name: str, entry: AxisDescription) -> AxisConfig:
         home=HomeConfig(
             HomingMode(entry.home.mode), entry.home.position, entry.home.velocity, SIGN[entry.home.direction]
         ),
+        monitor=MonitorConfig(**dict(entry.monitor)),
     )
+
+
+def _columns(description: Description, kind: str) -> dict[int, tuple[str, AxisDescription]]:
+    """Return name and description of the axes with a kind of drive, by column."""
+    entries = enumerate(description.axis.items())
+    return {column: (name, entry) for column, (name, entry) in entries if entry.drive.kind == kind}
+
+
+def _ideal_drives(store: Store, description: Description) -> IdealDrives:
+    chosen = _columns(description, "ideal")
+    return IdealDrives(store, list(chosen), [_switch(entry) for _, entry in chosen.values()])
+
+
+def _servo_drives(store: Store, description: Description, seed: int) -> ServoDrives:
+    chosen = _columns(description, "servo")
+    drives = ServoDrives(store, list(chosen), [_servo(name, entry, store.dt) for name, entry in chosen.values()], seed)
+    columns = {name: column for column, name in enumerate(description.axis)}
+    for one in description.fault:
+        tick = one.tick if one.tick is not None else whole_cycles(one.time or 0.0, store.dt)
+        drives.inject(columns[one.axis], Fault(one.kind, one.value, one.duration), tick)
+    return drives
+
+
+def whole_cycles(seconds: float, dt: float) -> int:
+    """Return a time in base cycles, rounded up; a rounding error of a millionth cycle is none."""
+    return math.ceil(seconds / dt - 1e-6)
+
+
+def _servo(name: str, entry: AxisDescription, dt: float) -> Servo:
+    drive = entry.drive
+    assert drive.position_gain is not None
+    # Twice the largest velocity, beside what noise and quantisation do, is no motion any more.
+    leap = 2.0 * entry.max_velocity * dt + 8.0 * drive.noise + 2.0 * drive.encoder_resolution + 2.0 * drive.backlash
+    return Servo(
+        name=name,
+        position_gain=drive.position_gain,
+        feed_forward=drive.velocity_feed_forward,
+        time_constant=drive.time_constant,
+        dead_time=round(drive.dead_time / dt),
+        max_acceleration=math.inf if drive.max_acceleration is None else drive.max_acceleration,
+        backlash=drive.backlash,
+        resolution=drive.encoder_resolution,
+        noise=drive.noise,
+        brake=entry.max_deceleration if drive.brake_deceleration is None else drive.brake_deceleration,
+        ready_delay=whole_cycles(drive.ready_delay, dt),
+        patience=drive.patience,
+        leap=leap,
+        switch=_switch(entry),
+    )
+
+
+def _groups(description: Description) -> list[ErrorGroup]:
+    columns = {name: column for column, name in enumerate(description.axis)}
+    return [
+        ErrorGroup(frozenset(columns[name] for name in group.axes), GroupReaction(group.reaction))
+        for group in description.group.values()
+    ]
 
 
 def _switch(entry: AxisDescription) -> ReferenceSwitch | None:

@@ -5,10 +5,18 @@ tables. u is the unit of the axis.
 """
 
 from collections.abc import Callable
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, field_validator
+from pydantic import ConfigDict, Field, ValidationInfo, field_validator
 from pydantic_core import PydanticCustomError
+
+from motionlayer.machine._drive_description import (
+    DriveDescription,
+    FaultDescription,
+    GroupDescription,
+    MonitorDescription,
+)
+from motionlayer.machine._fields import Acceleration, Jerk, Position, Positive, Table, Text, Velocity
 
 FORMATS = (1,)
 """Formats of the machine file that are understood."""
@@ -33,13 +41,6 @@ SIGNALS = (
 IDENTIFIER = r"^(?!.*__)[A-Za-z_][A-Za-z0-9_]*$"
 """An IEC 61131-3 identifier."""
 
-Text: TypeAlias = Annotated[str, Field(min_length=1)]
-_Position: TypeAlias = Annotated[float, Field(allow_inf_nan=False, json_schema_extra={"x-unit": "u"})]
-_Positive: TypeAlias = Annotated[float, Field(gt=0, allow_inf_nan=False)]
-_Velocity: TypeAlias = Annotated[_Positive, Field(json_schema_extra={"x-unit": "u/s"})]
-_Acceleration: TypeAlias = Annotated[_Positive, Field(json_schema_extra={"x-unit": "u/s²"})]
-_Jerk: TypeAlias = Annotated[_Positive, Field(json_schema_extra={"x-unit": "u/s³"})]
-
 
 def _same_as(field: str) -> Callable[[dict[str, Any]], Any]:
     """Return a default: the value of a field before. Not used when that field is wrong itself."""
@@ -50,11 +51,6 @@ def _no_keys() -> Any:  # noqa: ANN401 - validated into the model of the field
     return {}
 
 
-class _Table(BaseModel):
-    # strict: an integer is a number, but "1" and true are not.
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
-
-
 def _velocity_is_optional(schema: dict[str, Any]) -> None:
     """Correct the JSON schema: the axis adds the search velocity where the file leaves it out."""
     schema["required"].remove("velocity")
@@ -62,7 +58,7 @@ def _velocity_is_optional(schema: dict[str, Any]) -> None:
         del schema["required"]
 
 
-class HomeDescription(_Table):
+class HomeDescription(Table):
     """How an axis finds its reference: `[axis.X.home]`."""
 
     model_config = ConfigDict(json_schema_extra=_velocity_is_optional)
@@ -71,8 +67,8 @@ class HomeDescription(_Table):
         default="direct",
         description='"direct": the present position becomes `position`; "switch": search the switch.',
     )
-    position: _Position = Field(default=0.0, description="Reference position, at the switch if one is searched (u).")
-    switch: _Position | None = Field(
+    position: Position = Field(default=0.0, description="Reference position, at the switch if one is searched (u).")
+    switch: Position | None = Field(
         default=None,
         validate_default=True,
         description='Drive position of the simulated switch (u); needed for mode "switch". The switch is on '
@@ -82,7 +78,7 @@ class HomeDescription(_Table):
     direction: Literal["negative", "positive"] = Field(
         default="negative", description="Direction of the search for the switch."
     )
-    velocity: _Velocity = Field(
+    velocity: Velocity = Field(
         description="Search velocity (u/s), > 0 and at most max_velocity; default: a tenth of max_velocity."
     )
 
@@ -94,52 +90,44 @@ class HomeDescription(_Table):
         return switch
 
 
-class DriveDescription(_Table):
-    """The drive of an axis: `[axis.X.drive]`."""
-
-    kind: Literal["ideal"] = Field(
-        default="ideal", description='"ideal": the actual position is the set position, without lag.'
-    )
-
-
-class AxisDescription(_Table):
+class AxisDescription(Table):
     """One axis: `[axis.X]`."""
 
     unit: Text = Field(default="mm", description="Unit of positions, u in all other units.")
-    max_velocity: _Velocity = Field(description="Largest velocity (u/s), > 0.")
-    max_acceleration: _Acceleration = Field(description="Largest acceleration while |v| grows (u/s²), > 0.")
-    max_deceleration: _Acceleration = Field(
+    max_velocity: Velocity = Field(description="Largest velocity (u/s), > 0.")
+    max_acceleration: Acceleration = Field(description="Largest acceleration while |v| grows (u/s²), > 0.")
+    max_deceleration: Acceleration = Field(
         default_factory=_same_as("max_acceleration"),
         description="Largest deceleration, while |v| falls (u/s²), > 0; default: max_acceleration.",
     )
-    max_jerk: _Jerk = Field(description="Largest jerk (u/s³), > 0.")
-    velocity: _Velocity = Field(
+    max_jerk: Jerk = Field(description="Largest jerk (u/s³), > 0.")
+    velocity: Velocity = Field(
         default_factory=_same_as("max_velocity"),
         description="Velocity of a command that names none (u/s), > 0 and at most max_velocity, its default.",
     )
-    acceleration: _Acceleration = Field(
+    acceleration: Acceleration = Field(
         default_factory=_same_as("max_acceleration"),
         description="Acceleration of a command that names none (u/s²), > 0 and at most max_acceleration, its default.",
     )
-    deceleration: _Acceleration = Field(
+    deceleration: Acceleration = Field(
         default_factory=_same_as("max_deceleration"),
         description="Deceleration of a command that names none (u/s²), > 0 and at most max_deceleration, its default.",
     )
-    jerk: _Jerk = Field(
+    jerk: Jerk = Field(
         default_factory=_same_as("max_jerk"),
         description="Jerk of a command that names none (u/s³), > 0 and at most max_jerk, its default.",
     )
-    software_limit_min: _Position | None = Field(
+    software_limit_min: Position | None = Field(
         default=None,
         description="Lowest position of a command (u); default: none.",
         json_schema_extra={"x-unit": "u"},
     )
-    software_limit_max: _Position | None = Field(
+    software_limit_max: Position | None = Field(
         default=None,
         description="Highest position of a command (u), above software_limit_min; default: none.",
         json_schema_extra={"x-unit": "u"},
     )
-    start_position: _Position = Field(
+    start_position: Position = Field(
         default=0.0, description="Where the simulated drive stands at the beginning of a run (u)."
     )
     home: HomeDescription = Field(
@@ -148,6 +136,9 @@ class AxisDescription(_Table):
         description="How the axis finds its reference.",
     )
     drive: DriveDescription = Field(default_factory=DriveDescription, description="The drive of the axis.")
+    monitor: MonitorDescription = Field(
+        default_factory=MonitorDescription, description="What is watched on the axis; nothing by default."
+    )
 
     @field_validator("velocity", "acceleration", "deceleration", "jerk")
     @classmethod
@@ -176,7 +167,7 @@ class AxisDescription(_Table):
         return home
 
 
-class ProgramDescription(_Table):
+class ProgramDescription(Table):
     """A program started with the run: `[program.pick]`."""
 
     file: Text = Field(description="Python file, relative to the folder of the machine file; must exist.")
@@ -190,7 +181,7 @@ class ProgramDescription(_Table):
         return function
 
 
-class TraceDescription(_Table):
+class TraceDescription(Table):
     """What a trace records: `[trace]`."""
 
     signals: tuple[str, ...] = Field(
@@ -198,14 +189,14 @@ class TraceDescription(_Table):
         strict=False,  # TOML gives a list
         description="Glob patterns of the signals to record, over `<axis>.<signal>`; each must match one.",
     )
-    resolution: dict[str, _Positive] = Field(
+    resolution: dict[str, Positive] = Field(
         default_factory=dict,
         description="Glob pattern of signals to the resolution (> 0, in the unit of the signal) in which "
         "they are recorded; other signals are recorded without loss.",
     )
 
 
-class Description(_Table):
+class Description(Table):
     """A checked machine description; made by `load_description` or `check_description`."""
 
     format: Literal[1] = Field(description="Format of the machine file: 1.")
@@ -223,6 +214,14 @@ class Description(_Table):
         description="The axes by name, in the order they have everywhere. A name is an IEC 61131-3 "
         "identifier, unique without regard to case.",
         json_schema_extra={"propertyNames": {"pattern": IDENTIFIER}},
+    )
+    group: dict[str, GroupDescription] = Field(
+        default_factory=dict, description="Groups of axes of which one in error concerns the others, by name."
+    )
+    fault: tuple[FaultDescription, ...] = Field(
+        default=(),
+        strict=False,  # TOML gives a list
+        description="What goes wrong during the run.",
     )
     program: dict[str, ProgramDescription] = Field(
         default_factory=dict, description="Programs started with the run, in this order."

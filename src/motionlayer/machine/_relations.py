@@ -5,13 +5,14 @@ hide the other problems. What has the wrong type is left to the models.
 """
 
 import difflib
-import math
 import re
 from collections.abc import Iterable, Iterator
 from fnmatch import fnmatchcase
 from pathlib import Path
 
+from motionlayer.machine._data import number, table
 from motionlayer.machine._description import FORMATS, IDENTIFIER, SIGNALS
+from motionlayer.machine._drive_relations import drive_problems
 from motionlayer.machine._problem import Problem, field_text, value_text
 from motionlayer.machine._program_file import function_problem
 
@@ -34,12 +35,13 @@ def format_problem(data: object) -> Problem | None:
 
 def relation_problems(data: object, folder: Path) -> Iterator[Problem]:
     """Yield what is wrong between tables; program files are looked for in `folder`."""
-    axes = _table(data, "axis")
+    axes = table(data, "axis")
     yield from _name_problems(axes)
     for name, axis in axes.items():
         yield from _search_velocity_problems(name, axis)
-    yield from _pattern_problems(_table(data, "trace"), axes)
-    for name, program in _table(data, "program").items():
+    yield from drive_problems(data)
+    yield from _pattern_problems(table(data, "trace"), axes)
+    for name, program in table(data, "program").items():
         yield from _file_problems(name, program, folder)
 
 
@@ -58,8 +60,8 @@ def _name_problems(names: Iterable[str]) -> Iterator[Problem]:
 
 
 def _search_velocity_problems(name: str, axis: object) -> Iterator[Problem]:
-    velocity = _number(_table(axis, "home"), "velocity")
-    maximum = _number(axis, "max_velocity")
+    velocity = number(table(axis, "home"), "velocity")
+    maximum = number(axis, "max_velocity")
     if velocity is not None and maximum is not None and velocity > maximum > 0:
         allowed = f"at most max_velocity = {value_text(maximum)} (u/s)"
         yield Problem(("axis", name, "home", "velocity"), value_text(velocity), allowed)
@@ -78,7 +80,7 @@ def _pattern_problems(trace: dict[str, object], axes: Iterable[str]) -> Iterator
                 problem="matches no signal",
                 hint=_pattern_hint(pattern, names),
             )
-    for pattern in _table(trace, "resolution"):
+    for pattern in table(trace, "resolution"):
         if not _matches(pattern, names):
             path = ("trace", "resolution", pattern)
             yield Problem(path, problem="matches no signal", hint=_pattern_hint(pattern, names))
@@ -114,22 +116,3 @@ def _file_problems(name: str, program: object, folder: Path) -> Iterator[Problem
             field, problem, hint = found
             value = value_text(file if field == "file" else function)
             yield Problem(("program", name, field), value, problem=problem, hint=hint)
-
-
-def _table(data: object, key: str) -> dict[str, object]:
-    value = data.get(key) if isinstance(data, dict) else None
-    if not isinstance(value, dict):
-        return {}
-    return {name: item for name, item in value.items() if isinstance(name, str)}
-
-
-def _number(data: object, key: str) -> float | None:
-    """Return a number the models accept as one, or None."""
-    value = data.get(key) if isinstance(data, dict) else None
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        return None
-    try:
-        number = float(value)
-    except OverflowError:
-        return None
-    return number if math.isfinite(number) else None

@@ -6,10 +6,12 @@ import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, NoReturn, Self
+from typing import TYPE_CHECKING, Any, NoReturn, Self
 
 import numpy as np
 
+from motionlayer.command import Command, all_of
+from motionlayer.drive import Fault
 from motionlayer.machine._build import build
 from motionlayer.machine._machine import Machine
 from motionlayer.machine._programs import Loaded, load_program, sources_of
@@ -60,9 +62,10 @@ class Simulation(Run):
         loaded = [load_program(source) for source in sources_of(machine)] if programs is None else programs
         self.machine = machine
         self.seed = machine.description.seed if seed is None else seed
-        parts = build(machine.description)
+        parts = build(machine.description, self.seed)
         self.axes: Mapping[str, Axis] = Axes(parts.axes)
         """The axes by name."""
+        self._servos = parts.servos
         self._closed = False
         self._tracing: Tracing | None = None
         stages = list(parts.stages)
@@ -82,6 +85,38 @@ class Simulation(Run):
         )
         for program in loaded:
             self.start(program.function(self), program.name)
+
+    def inject(self, axis: str, fault: Fault, tick: int | None = None) -> None:
+        """Let something go wrong with the servo drive of an axis.
+
+        Args:
+            axis: name of the axis.
+            fault: what.
+            tick: in whose inputs it shows first; the next tick where left out.
+
+        Raises:
+            KeyError: no such axis.
+            ValueError: its drive is ideal, or the tick has passed.
+        """
+        if self.machine.description.axis[self.axes[axis].name].drive.kind != "servo":
+            raise ValueError(f'{axis}: its drive is ideal, and never has a fault; set kind = "servo"')
+        earliest = self.tick + 1 if self._ledger.issuer is not None else self.tick
+        begin = earliest if tick is None else tick
+        if begin < earliest:
+            raise ValueError(
+                f"{axis}: a fault at tick {begin}, and tick {earliest} is the next whose inputs can show it"
+            )
+        self._servos.inject(list(self.axes).index(axis), fault, begin)
+
+    def emergency_stop(self) -> Command[tuple[Any, ...]]:
+        """Stop all axes with their maximum dynamics, also those that stop more gently already.
+
+        What stands takes no command; an axis in error brakes by itself.
+
+        Returns:
+            A command that is done when all rest; until then they take no other motion.
+        """
+        return all_of(*[axis.emergency_stop() for axis in self.axes.values() if axis.command is not None])
 
     def random(self, name: str) -> np.random.Generator:
         """Return a stream of random numbers of its own, keyed by the seed of the run and a name."""

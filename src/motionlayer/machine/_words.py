@@ -18,6 +18,7 @@ from motionlayer.machine._problem import KeyPath, Problem, value_text
 _KINDS = {
     "number": "a finite number",
     "integer": "a whole number",
+    "boolean": "true or false",
     "string": "a text",
     "array": "a list",
     "object": "a table",
@@ -70,11 +71,13 @@ def _allowed(field: dict[str, Any]) -> str:
 def _range(field: dict[str, Any]) -> str:
     if "minimum" in field and "maximum" in field:
         return f"from {field['minimum']:_} to {field['maximum']:_}"
+    if "minimum" in field:
+        return f"at least {field['minimum']:_}"
     if "exclusiveMinimum" in field:
         return f"greater than {field['exclusiveMinimum']}"
     if "minLength" in field:
         return "that is not empty"
-    return "with at least one entry" if "minProperties" in field else ""
+    return "with at least one entry" if {"minProperties", "minItems"} & field.keys() else ""
 
 
 def _unit(field: dict[str, Any]) -> str:

@@ -128,6 +128,13 @@ class Axis(AxisCore):
         """Brake to rest; until then no other command is taken. Dynamics as `halt`."""
         return self._brake("stop", JobKind.STOP, AxisEvent.STOP, deceleration, jerk)
 
+    def emergency_stop(self) -> AxisCommand:
+        """Brake with the maximum dynamics, also where a weaker stop runs; otherwise as `stop`."""
+        command = AxisCommand(self, "emergency_stop")
+        job = Job(JobKind.STOP, math.nan, self.config.maximum, command)
+        self._start(job, AxisEvent.EMERGENCY_STOP, "emergency_stop()")
+        return command
+
     def home(self, position: float | None = None) -> AxisCommand:
         """Find the reference, in the way the machine description says; done when the axis is homed and at rest.
 

@@ -60,6 +60,11 @@ class AxisBase:
         return float(self._table[Q.ACTUAL_P, self._column])
 
     @property
+    def lag(self) -> float:
+        """Set position a dead time ago less the actual position, u; exactly 0 for an ideal drive."""
+        return float(self._table[Q.LAG, self._column])
+
+    @property
     def override(self) -> float:
         """Factor on the velocity of every motion, 0 to 1."""
         return float(self._table[Q.REQUEST, self._column])
@@ -98,7 +103,7 @@ class AxisBase:
 
     def _refuse(self, command: AxisCommand, refusal: Refusal) -> AxisCommand:
         error = MotionError(refusal.id, self.name, refusal.detail)
-        self._tell(Level.WARNING, Kind.REFUSED, f"{command.name}: {error}", refusal.id, command.number)
+        self._tell(Level.WARNING, Kind.REFUSED, f"{command.name}: {error.text}", refusal.id, command.number)
         command.fail(error)
         return command
 

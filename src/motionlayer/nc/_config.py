@@ -3,6 +3,7 @@
 import enum
 from typing import NamedTuple
 
+from motionlayer.nc._monitors import MonitorConfig
 from motionlayer.profile import Limits
 
 
@@ -40,3 +41,4 @@ class AxisConfig(NamedTuple):
     limit_min: float
     limit_max: float
     home: HomeConfig
+    monitor: MonitorConfig = MonitorConfig()

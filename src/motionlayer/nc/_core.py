@@ -1,24 +1,26 @@
-"""The inside of an axis: job, plan, and what the cycle brings to it."""
+"""The inside of an axis: its job, and what the cycle brings to it."""
 
 import math
 from typing import TYPE_CHECKING
 
 from motionlayer.command import ErrorId, Ledger, MotionError
 from motionlayer.event import EventLog, Kind, Level
-from motionlayer.nc._base import AxisBase
 from motionlayer.nc._config import AxisConfig
 from motionlayer.nc._limits import bad_target, limit_text, overrun
+from motionlayer.nc._monitors import IN_RANGE, IN_TARGET, Monitors, Seen
 from motionlayer.nc._motion import SCALED, AxisCommand, Job, JobKind, Refusal
+from motionlayer.nc._planning import AxisPlanning
+from motionlayer.nc._reaction import REACTIONS, Reaction, status_error
 from motionlayer.nc._states import AxisEvent, AxisState
-from motionlayer.profile import Limits, PlanError, Profile, plan_position, plan_stop, plan_velocity
-from motionlayer.store import JOB_OTHER, JOB_POSITION, JOB_VELOCITY, Ended, Q, Store
+from motionlayer.profile import PlanError
+from motionlayer.store import JOB_OTHER, Ended, Q, Store
 
 if TYPE_CHECKING:
     from motionlayer.nc._homing import Homing
 
 
-class AxisCore(AxisBase):
-    """Job and plan of one axis; `Axis` adds the commands.
+class AxisCore(AxisPlanning):
+    """Job of one axis; `Axis` adds the commands.
 
     Args:
         config: what the machine description says.
@@ -31,10 +33,11 @@ class AxisCore(AxisBase):
     def __init__(self, config: AxisConfig, column: int, store: Store, ledger: Ledger, events: EventLog) -> None:
         super().__init__(config, column, store, ledger, events)
         self.homed = False
-        self._job: Job | None = None
         self._homing: Homing | None = None
         self._power: AxisCommand | None = None
         self._reset: AxisCommand | None = None
+        self.monitors: Monitors | None = None
+        self.faulted: list[int] | None = None
         self._set_plan(self.set_position)
 
     @property
@@ -65,15 +68,30 @@ class AxisCore(AxisBase):
             return False
         return math.isclose(self.set_velocity, job.target * self.override, rel_tol=1e-12)
 
+    @property
+    def in_target(self) -> bool:
+        """InTargetPosition: inside the target window for its time; False without such a window."""
+        return self.monitors is not None and self.monitors.flag(self._column, IN_TARGET)
+
+    @property
+    def in_position_area(self) -> bool:
+        """InPositionArea: inside the range window; False without such a window."""
+        return self.monitors is not None and self.monitors.flag(self._column, IN_RANGE)
+
     # -- what the cycle brings -----------------------------------------------------------------------------------
 
     def drive_changed(self) -> None:
-        """Take up a change of the drive's readiness or inputs."""
-        if self.enabled and self._state is AxisState.DISABLED:
+        """Take up a change of the drive's readiness, status or inputs."""
+        trouble = status_error(int(self._table[Q.STATUS, self._column]))
+        if trouble is not None and self._state is not AxisState.ERRORSTOP:
+            self.fault(*trouble)
+        elif self.enabled and self._state is AxisState.DISABLED:
             self._set_plan(self.actual_position)
             self._enter(self._step(AxisEvent.READY))
-        elif not self.enabled and self._job is not None and self._state is not AxisState.ERRORSTOP:
-            self.fault(ErrorId.NOT_ENABLED, "the drive was switched off in motion")
+        elif self.enabled and self._state is AxisState.ERRORSTOP and self._enabling:
+            self._set_plan(self.actual_position)
+        elif not self.enabled and self._missed:
+            self.fault(ErrorId.NOT_ENABLED, "the drive lost its enable")
         elif not self.enabled:
             self._enter(self._step(AxisEvent.OFF))
         if self._power is not None and bool(self._table[Q.ENABLE, self._column]) == self.enabled and not self._job:
@@ -83,10 +101,30 @@ class AxisCore(AxisBase):
         if self._homing is not None:
             self._homing.input_changed()
 
+    @property
+    def _enabling(self) -> bool:
+        """Somebody waits for power."""
+        return self._power is not None and self._power.name.endswith(".enable")
+
+    @property
+    def _missed(self) -> bool:
+        """Power that is gone was needed."""
+        wanted = self._job is not None or bool(self._table[Q.ENABLE, self._column])
+        return wanted and self._state not in {AxisState.ERRORSTOP, AxisState.DISABLED}
+
+    def monitored(self, seen: Seen) -> None:
+        """Take up what the monitors found."""
+        job = self._job
+        waited = job is not None and job.arrived
+        if seen.error is None and job is not None and waited:
+            self._at_rest(job)
+        elif seen.error is not None and self._state is not AxisState.ERRORSTOP and (waited or not seen.of_target):
+            self.fault(seen.error, f"{seen.text} {self.config.unit}")
+
     def profile_ended(self, ended: Ended) -> None:
         """Take up that the profile came to its last piece."""
         job = self._job
-        if job is None or self._held:
+        if job is None or self._held or job.arrived:
             return
         if job.command is not None and job.kind is not JobKind.SEARCH:
             job.command.end_time = self._store.tick * self._store.dt - ended.early
@@ -99,11 +137,13 @@ class AxisCore(AxisBase):
                 )
         elif job.kind is JobKind.BRAKE and self._homing is not None:
             self._homing.at_rest()
+        elif job.kind is JobKind.POSITION and self.monitors is not None and self.monitors.waits(self._column):
+            job.arrived = True
         elif job.kind is not JobKind.SEARCH:
             self._at_rest(job)
 
     def fault(self, error: ErrorId, detail: str = "") -> None:
-        """Put the axis in error: the running command ends with it, a moving axis brakes."""
+        """Put the axis in error: the running command ends with it, and it comes to rest as `REACTIONS` says."""
         self.error = MotionError(error, self.name, detail)
         self._tell(Level.ERROR, Kind.MESSAGE, str(self.error), error)
         job = self._job
@@ -115,6 +155,10 @@ class AxisCore(AxisBase):
         # A motion that began in this very tick is still at rest.
         if self.set_velocity != 0.0 or self.set_acceleration != 0.0 or self.remaining_time > 0.0:
             self._replan(Job(JobKind.BRAKE, math.nan, self.config.maximum, None))
+        if REACTIONS.get(error) is Reaction.POWER_OFF:
+            self._cut_power()
+        if self.faulted is not None:
+            self.faulted.append(self._column)
 
     def search(self, velocity: float, command: AxisCommand) -> None:
         """Move with a signed velocity for the homing, software limits aside."""
@@ -175,6 +219,13 @@ class AxisCore(AxisBase):
         if self.enabled == on:
             self._power_switched()
 
+    def _cut_power(self) -> None:
+        """Take power away because of an error; who waits for it fails with that."""
+        self._table[Q.ENABLE, self._column] = 0.0
+        if self._power is not None and self._enabling and self.error is not None:
+            power, self._power = self._power, None
+            self._fail(power, self.error)
+
     def _power_switched(self) -> None:
         """End the command that asked for it; an error that came in between is its end too."""
         power, self._power = self._power, None
@@ -193,40 +244,23 @@ class AxisCore(AxisBase):
         self._enter(self._step(AxisEvent.AT_REST))
         if job.command is not None:
             self._end(job.command)
-        if self._reset is not None:
-            self._finish_reset()
-        if self._power is not None and self._power.name.endswith("disable"):
+        if self._reset is not None:  # set and actual position are of one tick with the next inputs
+            self._store.status_changed.append(self._column)
+        if self._power is not None and self._power.name.endswith(".disable"):
             self._request_power(on=False)
 
     def _finish_reset(self) -> None:
+        """Leave the error, once the drive has left its own; the set position becomes the actual one."""
+        if self._table[Q.STATUS, self._column] != 0.0:
+            self._table[Q.DRIVE_RESET, self._column] = 1.0  # its answer brings us here again
+            return
         reset, self._reset = self._reset, None
+        if self._state is AxisState.ERRORSTOP and self.actual_position != self.set_position:
+            self._set_plan(self.actual_position)
         self._enter(self._step(AxisEvent.RESET if self.enabled else AxisEvent.RESET_OFF))
         self.error = None
         if reset is not None:
             self._end(reset)
-
-    def _planned(self, job: Job) -> Profile:
-        """Plan a job from the present setpoint, with the override.
-
-        Raises:
-            PlanError: the plan failed its check.
-        """
-        state = (self.set_position, self.set_velocity, self.set_acceleration)
-        limits = self._scaled(job)
-        if job.kind not in SCALED or self.override == 0.0:
-            return plan_stop(*state, limits)
-        if job.kind is JobKind.POSITION:
-            return plan_position(*state, job.target, limits)
-        end = self._limit_ahead(job)
-        if job.kind is JobKind.VELOCITY and math.isfinite(end):
-            return plan_position(*state, end, limits)
-        return plan_velocity(*state, math.copysign(limits.velocity, job.target), limits)
-
-    def _scaled(self, job: Job) -> Limits:
-        factor = self.override
-        if job.kind not in SCALED or factor in {0.0, 1.0}:
-            return job.limits
-        return job.limits._replace(velocity=job.limits.velocity * factor)
 
     def _replan(self, job: Job) -> None:
         """Plan a job anew whose command is accepted already."""
@@ -234,34 +268,3 @@ class AxisCore(AxisBase):
             self._adopt(job, self._planned(job))
         except PlanError as error:
             self.fault(ErrorId.INTERNAL, str(error))
-
-    def _adopt(self, job: Job, profile: Profile) -> None:
-        """Hand a profile to the store, put its limits in force, and leave there what a change of override needs."""
-        self._job = job
-        self._store.adopt(self._column, profile.pieces)
-        table, column = self._table, self._column
-        table[Q.MAX_V : Q.MAX_J + 1, column] = self._scaled(job)
-        table[Q.OVERRIDE, column] = self.override
-        kind, target = JOB_OTHER, 0.0
-        if job.kind in SCALED:
-            bounded = job.kind is JobKind.VELOCITY and math.isfinite(self._limit_ahead(job))
-            kind = JOB_POSITION if bounded or job.kind is JobKind.POSITION else JOB_VELOCITY
-            target = self._limit_ahead(job) if bounded else job.target
-        command = job.command.number if job.command is not None else 0
-        table[Q.JOB_KIND : Q.COMMAND + 1, column] = (kind, target, job.limits.velocity, command)
-
-    def _limit_ahead(self, job: Job) -> float:
-        """Return the software limit that an endless motion goes towards."""
-        return self.config.limit_max if job.target > 0.0 else self.config.limit_min
-
-    def _redefine(self, position: float) -> None:
-        """Give the place where the axis stands another position: set, actual and drive stay where they are."""
-        lag = self.set_position - self.actual_position
-        self._table[Q.SHIFT, self._column] += position - self.set_position
-        self._table[Q.ACTUAL_P, self._column] = position - lag  # so that no lag stays none, to the last bit
-        self._set_plan(position)
-
-    def _set_plan(self, position: float) -> None:
-        """Let the setpoint of the resting axis be `position`, from this very tick on."""
-        self._store.place(self._column, position)
-        self._table[Q.MAX_V : Q.MAX_J + 1, self._column] = self.config.maximum

@@ -88,12 +88,14 @@ class Job:
         target: position, or signed velocity for VELOCITY and SEARCH.
         limits: as commanded, before the override.
         command: whom to tell; None for a brake that nobody waits for.
+        arrived: the setpoint has come to its target, the actual position is waited for.
     """
 
     kind: JobKind
     target: float
     limits: Limits
     command: AxisCommand | None
+    arrived: bool = False
 
 
 def number(name: str, value: float | None) -> float | None:

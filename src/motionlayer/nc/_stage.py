@@ -4,7 +4,9 @@ from collections.abc import Sequence
 
 from motionlayer.command import ErrorId
 from motionlayer.nc._axis import Axis
+from motionlayer.nc._monitors import Monitors
 from motionlayer.nc._override import Overrides
+from motionlayer.nc._reaction import ErrorGroup, react
 from motionlayer.store import Store
 
 
@@ -14,12 +16,20 @@ class AxisStage:
     Args:
         axes: in order of their columns, which are 0, 1, 2 …
         store: setpoints and actual values.
+        groups: what an error of one axis means for others.
     """
 
-    def __init__(self, axes: Sequence[Axis], store: Store) -> None:
+    def __init__(self, axes: Sequence[Axis], store: Store, groups: Sequence[ErrorGroup] = ()) -> None:
         self._axes = axes
         self._store = store
         self._overrides = Overrides(store)
+        self._groups = groups
+        self._faulted: list[int] = []
+        configs = {column: axis.config.monitor for column, axis in enumerate(axes) if axis.config.monitor.any}
+        self._monitors = Monitors(store, configs) if configs else None
+        for axis in axes:
+            axis.monitors = self._monitors
+            axis.faulted = self._faulted if groups else None
 
     def inputs(self, _tick: int) -> None:
         """Take up what the drives reported."""
@@ -28,6 +38,8 @@ class AxisStage:
             for column in changed:
                 self._axes[column].drive_changed()
             changed.clear()
+        if self._faulted:
+            react(self._groups, self._faulted, self._axes)
 
     def accept(self, _tick: int) -> None:
         """Put requested overrides in force, after all commands of the tick."""
@@ -35,6 +47,9 @@ class AxisStage:
             self._axes[column].fault(ErrorId.INTERNAL, "the motion cannot be planned with this override")
 
     def motion(self, tick: int) -> None:
-        """Sample the setpoints of the next tick; let commands end."""
+        """Look at the monitors of this tick, sample the setpoints of the next; let commands end."""
+        seen = self._monitors.look() if self._monitors is not None else ()
         for ended in self._store.sample(tick + 1):
             self._axes[ended.column].profile_ended(ended)
+        for one in seen:
+            self._axes[one.column].monitored(one)

@@ -5,7 +5,7 @@ an entry that is an `ErrorId` refuses it and nothing changes. Three machines tou
 (request and readiness are values in the store) and the job (what the axis is executing). The table decides, the
 other two deliver its events:
 
-- a command brings MOVE, MOVE_ENDLESS, HALT, STOP, HOME, ENABLE, DISABLE or RESET when it is called;
+- a command brings MOVE, MOVE_ENDLESS, HALT, STOP, EMERGENCY_STOP, HOME, ENABLE, DISABLE or RESET when it is called;
 - the drive brings READY and, at rest, OFF; readiness lost in motion is a FAULT;
 - the sampler brings AT_REST when the job has come to its end;
 - a monitor brings FAULT, which wins over everything.
@@ -53,10 +53,20 @@ class AxisEvent(enum.Enum):
     STOP = "stop"
     HOME = "home"
     AT_REST = "at rest"
+    EMERGENCY_STOP = "emergency stop"
     FAULT = "fault"
 
 
-NEED_POWER: Final = frozenset({AxisEvent.MOVE, AxisEvent.MOVE_ENDLESS, AxisEvent.HALT, AxisEvent.STOP, AxisEvent.HOME})
+NEED_POWER: Final = frozenset(
+    {
+        AxisEvent.MOVE,
+        AxisEvent.MOVE_ENDLESS,
+        AxisEvent.HALT,
+        AxisEvent.STOP,
+        AxisEvent.EMERGENCY_STOP,
+        AxisEvent.HOME,
+    }
+)
 """Commands that a switched-off drive does not take, even before it has followed the request."""
 
 _NAMES: Final = (
@@ -88,6 +98,7 @@ TRANSITIONS: Final[dict[AxisState, dict[AxisEvent, AxisState | ErrorId]]] = {
         _E.MOVE_ENDLESS: _NO_POWER,
         _E.HALT: _NO_POWER,
         _E.STOP: _NO_POWER,
+        _E.EMERGENCY_STOP: _NO_POWER,
         _E.HOME: _NO_POWER,
         _E.FAULT: _S.ERRORSTOP,
     },
@@ -100,6 +111,7 @@ TRANSITIONS: Final[dict[AxisState, dict[AxisEvent, AxisState | ErrorId]]] = {
         _E.MOVE_ENDLESS: _S.CONTINUOUS_MOTION,
         _E.HALT: _S.DISCRETE_MOTION,
         _E.STOP: _S.STOPPING,
+        _E.EMERGENCY_STOP: _S.STOPPING,
         _E.HOME: _S.HOMING,
         _E.FAULT: _S.ERRORSTOP,
     },
@@ -111,6 +123,7 @@ TRANSITIONS: Final[dict[AxisState, dict[AxisEvent, AxisState | ErrorId]]] = {
         _E.MOVE_ENDLESS: _S.CONTINUOUS_MOTION,
         _E.HALT: _S.DISCRETE_MOTION,
         _E.STOP: _S.STOPPING,
+        _E.EMERGENCY_STOP: _S.STOPPING,
         _E.HOME: _ERROR,
         _E.AT_REST: _S.STANDSTILL,
         _E.FAULT: _S.ERRORSTOP,
@@ -123,6 +136,7 @@ TRANSITIONS: Final[dict[AxisState, dict[AxisEvent, AxisState | ErrorId]]] = {
         _E.MOVE_ENDLESS: _S.CONTINUOUS_MOTION,
         _E.HALT: _S.DISCRETE_MOTION,
         _E.STOP: _S.STOPPING,
+        _E.EMERGENCY_STOP: _S.STOPPING,
         _E.HOME: _ERROR,
         _E.FAULT: _S.ERRORSTOP,
     },
@@ -134,6 +148,7 @@ TRANSITIONS: Final[dict[AxisState, dict[AxisEvent, AxisState | ErrorId]]] = {
         _E.MOVE_ENDLESS: _LOCKED,
         _E.HALT: _LOCKED,
         _E.STOP: ErrorId.STOP_ACTIVE,
+        _E.EMERGENCY_STOP: _S.STOPPING,
         _E.HOME: _LOCKED,
         _E.AT_REST: _S.STANDSTILL,
         _E.FAULT: _S.ERRORSTOP,
@@ -146,6 +161,7 @@ TRANSITIONS: Final[dict[AxisState, dict[AxisEvent, AxisState | ErrorId]]] = {
         _E.MOVE_ENDLESS: _ERROR,
         _E.HALT: _ERROR,
         _E.STOP: _S.STOPPING,
+        _E.EMERGENCY_STOP: _S.STOPPING,
         _E.HOME: _ERROR,
         _E.AT_REST: _S.STANDSTILL,
         _E.FAULT: _S.ERRORSTOP,
@@ -161,6 +177,7 @@ TRANSITIONS: Final[dict[AxisState, dict[AxisEvent, AxisState | ErrorId]]] = {
         _E.MOVE_ENDLESS: _ERROR,
         _E.HALT: _ERROR,
         _E.STOP: _ERROR,
+        _E.EMERGENCY_STOP: _ERROR,
         _E.HOME: _ERROR,
         _E.AT_REST: _S.ERRORSTOP,
         _E.FAULT: _S.ERRORSTOP,

@@ -27,7 +27,11 @@ velocity s·V, left at the one moment at which its stop ends at the target:
 The left side is monotone in t along that plan, so the moment is found by bracketing: the piece first, then the time
 inside it; in the cruise the equation is linear.
 
-Start states outside the limits are brought back inside at full jerk first; nothing above assumes them inside.
+*Into the motion of a target at constant velocity u.* The same with the fastest way to u in place of the stop, and
+with the distance to the moving point: u·t is taken off on the left of (3). Limits are those of the absolute motion.
+
+Start states outside the limits: an acceleration is taken back at full jerk at once, a velocity by the fastest way to
+its limit with a = 0. Nothing above assumes a start inside.
 
 Sources: the plane of v and a² is the usual phase-plane argument for double-S profiles (Biagiotti, Melchiorri,
 Trajectory Planning for Automatic Machines and Robots, chapter 3); the separate limits follow PLCopen's Acceleration
@@ -44,18 +48,27 @@ from motionlayer.profile._plan import (
     plan_stop,
     plan_velocity,
     rest_at,
+    stop_at,
 )
-from motionlayer.profile._tolerances import TOLERANCES
+from motionlayer.profile._stop import stop_displacement, stop_position
+from motionlayer.profile._synchronise import Moving, plan_synchronise
+from motionlayer.profile._tolerances import RANGES, TOLERANCES
 
 __all__ = [
     "MAX_PIECES",
+    "RANGES",
     "TOLERANCES",
     "Limits",
+    "Moving",
     "PlanError",
     "Profile",
     "plan",
     "plan_position",
     "plan_stop",
+    "plan_synchronise",
     "plan_velocity",
     "rest_at",
+    "stop_at",
+    "stop_displacement",
+    "stop_position",
 ]

@@ -4,13 +4,15 @@ import math
 from typing import Final
 
 from motionlayer._kernel import kernel
-from motionlayer.profile._kernels import Floats
-from motionlayer.profile._tolerances import TOLERANCES
+from motionlayer.profile._kernels import OUT_OF_REACH, Floats
+from motionlayer.profile._tolerances import RANGES, TOLERANCES
 
 POSITION: Final = TOLERANCES.position
 VELOCITY: Final = TOLERANCES.velocity
 ACCELERATION: Final = TOLERANCES.acceleration
 CLOCK: Final = TOLERANCES.clock
+LONGEST: Final = RANGES.duration
+FINENESS: Final = RANGES.fineness
 
 FINE: Final = 0
 NOT_FINITE: Final = -1
@@ -31,6 +33,7 @@ REASONS: Final = {
     ACCELERATION_LIMIT: "the acceleration or deceleration limit is exceeded",
     END_STATE: "the end state is missed",
     BAD_LIMITS: "a limit is not finite and above zero",
+    OUT_OF_REACH: "the target is as fast as the velocity limit and stays out of reach",
 }
 
 
@@ -62,13 +65,12 @@ def highest_speed(v: float, a: float, j: float, duration: float) -> float:
 
 
 @kernel
-def misfit(piece: Floats, following: Floats, jerk: float, vel: float, acc: float, path: float) -> int:
+def misfit(piece: Floats, following: Floats, jerk: float, vel: float, acc: float, path: float, blur: float) -> int:
     """Judge one piece and its joint to the following one.
 
     After a long cruise the clock itself is coarse: a duration is known to a few ulp of the time, not of itself.
     """
     duration = following[0] - piece[0]
-    blur = CLOCK * following[0]
     if not duration > 0.0:
         return TIME_RUNS_BACK
     p, v, a, j = piece[1], piece[2], piece[3], piece[4]
@@ -87,65 +89,133 @@ def misfit(piece: Floats, following: Floats, jerk: float, vel: float, acc: float
 
 
 @kernel
-def over_acceleration(piece: Floats, duration: float, acc: float, dec: float, vel: float) -> bool:
+def time_back(v: float, a: float, vel: float, dec: float, jerk: float) -> float:
+    """Return how long |v| stays above `vel` on the fastest way to `vel` with a = 0; 0 for a start inside.
+
+    A start is outside as well if its acceleration, brought to zero at full jerk, carries it outside.
+    """
+    reached = v + 0.5 * a * abs(a) / jerk
+    if abs(reached) <= vel:
+        return abs(a) / jerk if abs(v) > vel else 0.0
+    s = 1.0 if reached > 0.0 else -1.0
+    pull = -s * a
+    time = 0.0
+    excess = s * v - vel
+    if pull < 0.0:
+        time = -pull / jerk
+        excess = s * reached - vel
+        pull = 0.0
+    peak = max(min(math.sqrt(jerk * excess + 0.5 * pull * pull), dec), 0.0)
+    time += abs(peak - pull) / jerk + peak / jerk
+    lost = 0.5 * (abs(peak - pull) * (peak + pull) + peak * peak) / jerk
+    return time + (max(excess - lost, 0.0) / peak if peak == dec else 0.0)
+
+
+@kernel
+def over_velocity(piece: Floats, duration: float, back: float, vel: float, raised: float, slack: float) -> bool:
+    """Tell whether a piece is faster than `vel`, or before the time `back` than `raised`."""
+    t, v, a, j = piece[0], piece[2], piece[3], piece[4]
+    if highest_speed(v, a, j, duration) > raised * (1.0 + VELOCITY):
+        return True
+    skip = max(back - t, 0.0)
+    if skip >= duration:
+        return False
+    v += skip * (a + skip * (0.5 * j))
+    a += skip * j
+    return highest_speed(v, a, j, duration - skip) > vel + VELOCITY * raised + (slack if back > 0.0 else 0.0)
+
+
+@kernel
+def over_acceleration(
+    piece: Floats, duration: float, first: float, acc: float, dec: float, vel: float, jerk: float, blur: float
+) -> bool:
     """Tell whether a piece brakes harder than `dec` or accelerates harder than `acc` anywhere.
 
-    |a| is largest at an end of the piece; where v changes sign inside, the middle of each part says which limit
-    holds there. Velocities within tolerance of zero belong to both sides.
+    `first` is |a| at the start of the profile; what the jerk limit leaves of it at the time is allowed. |a| - limit is
+    largest at an end of the piece, or where that allowance ends; where v changes sign inside, the middle of each part
+    says which limit holds there. Velocities within tolerance of zero belong to both sides.
     """
-    v, a, j = piece[2], piece[3], piece[4]
-    blur = CLOCK * (piece[0] + duration)
+    t, v, a, j = piece[0], piece[2], piece[3], piece[4]
+    most = max(acc, dec)
+    slack = ACCELERATION * max(most, first) + blur * abs(j)
     cuts = (0.0, duration)
     under = a * a - 2.0 * j * v
     if under >= 0.0:
         below = -a - math.sqrt(under) if a > 0.0 else -a + math.sqrt(under)
         if below != 0.0 and 0.0 < 2.0 * v / below < duration:
             cuts = (2.0 * v / below, duration)
-    first = 0.0
+    begin = 0.0
     for cut in cuts:
-        middle = 0.5 * (first + cut)
+        middle = 0.5 * (begin + cut)
         speed = v + middle * (a + middle * (0.5 * j))
         pull = a + middle * j
-        limit = max(acc, dec) if abs(speed) <= VELOCITY * vel else (acc if speed * pull > 0.0 else dec)
-        if max(abs(a + first * j), abs(a + cut * j)) > limit * (1.0 + ACCELERATION) + blur * abs(j):
-            return True
-        first = cut
+        limit = most if abs(speed) <= VELOCITY * vel else (acc if speed * pull > 0.0 else dec)
+        corner = min(max((first - limit) / jerk - t, begin), cut)
+        for s in (begin, corner, cut):
+            if abs(a + s * j) > max(limit, first - jerk * (t + s)) + slack:
+                return True
+        begin = cut
     return False
 
 
 @kernel
-def check(
-    out: Floats, count: int, target: float, to_position: bool, vel: float, acc: float, dec: float, jerk: float
-) -> int:
-    """Return FINE or the first reason to refuse a plan.
+def blur_at(time: float, shortest: float) -> float:
+    """Return what an instant may miss: a few ulp of the time, but never a visible part of the shortest phase."""
+    return CLOCK * min(time, max(LONGEST, FINENESS * shortest))
 
-    A start outside the limits raises them to what it cannot avoid at full jerk.
+
+@kernel
+def check_way(out: Floats, count: int, vel: float, acc: float, dec: float, jerk: float) -> int:
+    """Return FINE or the first reason to refuse the way of a plan, whatever its end.
+
+    A start outside the limits raises them while it comes back and no longer: the acceleration to what full jerk
+    leaves of it, the velocity until `time_back`.
     """
     for k in range(count):
         for field in range(5):
             if not math.isfinite(out[k, field]):
                 return NOT_FINITE
     v, a = out[0, 2], out[0, 3]
-    vel = max(vel, abs(v), abs(v + 0.5 * a * abs(a) / jerk))
-    if a * v < 0.0:  # |v| falls; at v = 0 the acceleration is still at least the root of a² - 2J|v|
-        dec = max(dec, abs(a))
-        acc = max(acc, math.sqrt(max(a * a - 2.0 * jerk * abs(v), 0.0)))
-    else:
-        acc = max(acc, abs(a))
-    if not (vel < math.inf and acc < math.inf):  # squares that overflow would allow everything
+    raised = max(vel, abs(v), abs(v + 0.5 * a * abs(a) / jerk))
+    most = max(acc, dec, abs(a))
+    back = time_back(v, a, vel, dec, jerk)
+    if not (raised < math.inf and most < math.inf and back < math.inf):  # overflow would allow everything
         return NOT_FINITE
+    shortest = min(acc / jerk, dec / jerk, math.sqrt(vel / jerk))
     path = 0.0
     for k in range(count - 1):
         duration = out[k + 1, 0] - out[k, 0]
-        speed = highest_speed(out[k, 2], out[k, 3], out[k, 4], duration)
-        if speed > vel * (1.0 + VELOCITY):
+        blur = blur_at(out[k + 1, 0], shortest)
+        if over_velocity(out[k], duration, back, vel, raised, blur * most):
             return VELOCITY_LIMIT
-        path += speed * duration
-        fault = misfit(out[k], out[k + 1], jerk, vel, max(acc, dec), path)
+        path += highest_speed(out[k, 2], out[k, 3], out[k, 4], duration) * duration
+        fault = misfit(out[k], out[k + 1], jerk, raised, most, path, blur)
         if fault != FINE:
             return fault
-        if over_acceleration(out[k], duration, acc, dec, vel):
+        if over_acceleration(out[k], duration, abs(a), acc, dec, raised, jerk, blur):
             return ACCELERATION_LIMIT
+    return FINE
+
+
+@kernel
+def check(
+    out: Floats, count: int, target: float, to_position: bool, vel: float, acc: float, dec: float, jerk: float
+) -> int:
+    """Return FINE or the first reason to refuse a plan to rest at a position, or to a velocity."""
+    fault = check_way(out, count, vel, acc, dec, jerk)
+    if fault != FINE:
+        return fault
     end = out[count - 1]
     missed = end[1] != target or end[2] != 0.0 if to_position else end[2] != target
     return END_STATE if missed or end[3] != 0.0 or end[4] != 0.0 else FINE
+
+
+@kernel
+def check_meeting(out: Floats, count: int, p: float, u: float, vel: float, acc: float, dec: float, jerk: float) -> int:
+    """Return FINE or the first reason to refuse a plan that ends in the motion p + u·t."""
+    fault = check_way(out, count, vel, acc, dec, jerk)
+    if fault != FINE:
+        return fault
+    end = out[count - 1]
+    met = end[1] == p + u * end[0] and end[2] == u and end[3] == 0.0 and end[4] == 0.0
+    return FINE if met else END_STATE

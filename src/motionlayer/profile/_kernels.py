@@ -11,8 +11,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motionlayer._kernel import kernel
+from motionlayer.profile._stop import stop_displacement
+from motionlayer.profile._tolerances import TOLERANCES
 
 Floats = NDArray[np.float64]
+
+OUT_OF_REACH: Final = -9
+"""Returned instead of a number of pieces: the moving target runs away."""
+
+CLOCK: Final = TOLERANCES.clock
+STEP: Final = 2.3e-16
+"""More than one step of a clock, relative."""
+
+COARSE: Final = 1e-11
+"""Blur of the clock, relative to a phase, from which a stop after a cruise is planned on its steps."""
 
 MAX_STEPS: Final = 120
 """Most steps of the bracketing. Bisection alone would need 64 for a float64; it usually takes 6 to 15."""
@@ -90,28 +102,30 @@ def to_velocity(out: Floats, target: float, acc: float, dec: float, jerk: float)
 
 
 @kernel
-def stop_displacement(scratch: Floats, v: float, a: float, acc: float, dec: float, jerk: float) -> float:
-    """Return S(v, a): how far the fastest stop still travels, with its sign."""
+def steady_displacement(scratch: Floats, v: float, a: float, u: float, acc: float, dec: float, jerk: float) -> float:
+    """Return how far the fastest way from (v, a) to the velocity u gains on a point that moves at u all the time."""
+    if u == 0.0:
+        return stop_displacement(v, a, dec, jerk)
     scratch[0, 0] = 0.0
     scratch[0, 1] = 0.0
     scratch[0, 2] = v
     scratch[0, 3] = a
-    count = to_velocity(scratch, 0.0, acc, dec, jerk)
-    return float(scratch[count - 1, 1])
+    last = to_velocity(scratch, u, acc, dec, jerk) - 1
+    return float(scratch[last, 1] - u * scratch[last, 0])
 
 
 @kernel
-def rest_after(out: Floats, scratch: Floats, k: int, s: float, acc: float, dec: float, jerk: float) -> float:
+def meets_after(out: Floats, scratch: Floats, k: int, s: float, u: float, acc: float, dec: float, jerk: float) -> float:
     """Return the left side of (3), from the start of the plan, when its piece k is left after s seconds."""
     a, j = out[k, 3], out[k, 4]
     v = out[k, 2] + s * (a + s * (0.5 * j))
     p = out[k, 1] + s * (out[k, 2] + s * (0.5 * a + s * (j / 6.0)))
-    return float(p + stop_displacement(scratch, v, a + s * j, acc, dec, jerk))
+    return float(p - u * (out[k, 0] + s) + steady_displacement(scratch, v, a + s * j, u, acc, dec, jerk))
 
 
 @kernel
 def leave_at(
-    out: Floats, scratch: Floats, k: int, duration: float, goal: float, acc: float, dec: float, jerk: float
+    out: Floats, scratch: Floats, k: int, duration: float, goal: float, u: float, acc: float, dec: float, jerk: float
 ) -> float:
     """Solve (3) for the time inside piece k by Chandrupatla's method.
 
@@ -119,15 +133,15 @@ def leave_at(
     elsewhere (Chandrupatla, Advances in Engineering Software 28, 1997).
     """
     x1, x2, x3 = duration, 0.0, 0.0
-    f1 = rest_after(out, scratch, k, duration, acc, dec, jerk) - goal
-    f2 = rest_after(out, scratch, k, 0.0, acc, dec, jerk) - goal
+    f1 = meets_after(out, scratch, k, duration, u, acc, dec, jerk) - goal
+    f2 = meets_after(out, scratch, k, 0.0, u, acc, dec, jerk) - goal
     if f1 == 0.0:
         return duration
     f3 = f2
     part = 0.5
     for _ in range(MAX_STEPS):
         x = x1 + part * (x2 - x1)
-        f = rest_after(out, scratch, k, x, acc, dec, jerk) - goal
+        f = meets_after(out, scratch, k, x, u, acc, dec, jerk) - goal
         if (f > 0.0) == (f1 > 0.0):
             x3, f3 = x1, f1
         else:
@@ -150,29 +164,84 @@ def leave_at(
 
 
 @kernel
-def to_rest(out: Floats, scratch: Floats, goal: float, vel: float, acc: float, dec: float, jerk: float) -> int:
-    """Plan from the state in `out[0]` (with p = 0) to rest at displacement `goal`; return the number of pieces."""
-    v, a = out[0, 2], out[0, 3]
-    rest = stop_displacement(scratch, v, a, acc, dec, jerk)
-    if goal == rest:
-        return to_velocity(out, 0.0, acc, dec, jerk)
-    s = 1.0 if goal > rest else -1.0
-    last = to_velocity(out, s * vel, acc, dec, jerk) - 1
+def stop_on_clock(out: Floats, scratch: Floats, k: int, acc: float, dec: float, jerk: float) -> int:
+    """Plan the stop from the cruise in `out[k]` in whole steps of a clock that has become coarse beside its phases.
+
+    Every phase is stretched to the next steps, and acceleration and jerk lowered as much: it stays exact, and under
+    its limits, at any time. It costs some 5e-16 of the time.
+    """
+    v, t = out[k, 2], out[k, 0]
+    scratch[0, 0] = 0.0
+    scratch[0, 1] = 0.0
+    scratch[0, 2] = v
+    scratch[0, 3] = 0.0
+    last = to_velocity(scratch, 0.0, acc, dec, jerk) - 1
+    if last < 2:  # a phase underflows: the end is missed, and the check says so
+        out[k, 4] = 0.0
+        return 1
+    for i in range(last):
+        t += (scratch[i + 1, 0] - scratch[i, 0]) + STEP * t
+        out[k + i + 1, 0] = t
+    rise = out[k + 1, 0] - out[k, 0]
+    fall = out[k + last, 0] - out[k + last - 1, 0]
+    peak = -v / (out[k + last, 0] - out[k, 0] - 0.5 * (rise + fall))
+    out[k, 4] = min(max(peak / rise, -jerk), jerk)  # rounding
+    for i in range(1, last):  # a hold, if there is one, and the fall
+        duration = out[k + i, 0] - out[k + i - 1, 0]
+        a, j = out[k + i - 1, 3], out[k + i - 1, 4]
+        out[k + i, 1] = out[k + i - 1, 1] + duration * (out[k + i - 1, 2] + duration * (0.5 * a + duration * (j / 6.0)))
+        out[k + i, 2] = out[k + i - 1, 2] + duration * (a + 0.5 * duration * j)
+        out[k + i, 3] = peak
+        out[k + i, 4] = 0.0
+    out[k + last - 1, 4] = min(max(-peak / fall, -jerk), jerk)
+    for field in range(2, 5):
+        out[k + last, field] = 0.0
+    return last + 1
+
+
+@kernel
+def to_meet(
+    out: Floats, scratch: Floats, s: float, goal: float, u: float, cruise: float, acc: float, dec: float, jerk: float
+) -> int:
+    """Plan from the state in `out[0]` (with p = 0) by way of the velocity `cruise` to the motion goal + u·t.
+
+    Direction s tells on which side of `steady_displacement` the goal lies; s·cruise >= s·u. Returns the number of
+    pieces, or OUT_OF_REACH where the cruise does not come nearer.
+    """
+    last = to_velocity(out, cruise, acc, dec, jerk) - 1
+    nearer = cruise - u
+    duration = 0.0
     k = 0
     while k < last:
         duration = out[k + 1, 0] - out[k, 0]
-        if s * (rest_after(out, scratch, k, duration, acc, dec, jerk) - goal) >= 0.0:
+        if s * (meets_after(out, scratch, k, duration, u, acc, dec, jerk) - goal) >= 0.0:
             break
         k += 1
-    if k == last:  # the stop begins in the cruise, where (3) is linear
-        time = (goal - rest_after(out, scratch, last, 0.0, acc, dec, jerk)) / (s * vel)
+    if k < last:
+        time = leave_at(out, scratch, k, duration, goal, u, acc, dec, jerk)
+    elif s * nearer > 0.0:  # left in the cruise, where (3) is linear
+        time = (goal - meets_after(out, scratch, last, 0.0, u, acc, dec, jerk)) / nearer
     else:
-        time = leave_at(out, scratch, k, duration, goal, acc, dec, jerk)
+        return OUT_OF_REACH
+    cruised = k == last
     k = push(out, k, out[k, 4], time)
-    out_tail = out[k:]
-    count = k + to_velocity(out_tail, 0.0, acc, dec, jerk)
-    out[count - 1, 1] = goal
+    if cruised and u == 0.0 and CLOCK * out[k, 0] > COARSE * min(math.sqrt(abs(cruise) / jerk), dec / jerk):
+        count = k + stop_on_clock(out, scratch, k, acc, dec, jerk)
+    else:
+        out_tail = out[k:]
+        count = k + to_velocity(out_tail, u, acc, dec, jerk)
+    out[count - 1, 1] = goal + u * out[count - 1, 0]
     return count
+
+
+@kernel
+def to_rest(out: Floats, scratch: Floats, goal: float, vel: float, acc: float, dec: float, jerk: float) -> int:
+    """Plan from the state in `out[0]` (with p = 0) to rest at displacement `goal`; return the number of pieces."""
+    rest = stop_displacement(out[0, 2], out[0, 3], dec, jerk)
+    if goal == rest:
+        return to_velocity(out, 0.0, acc, dec, jerk)
+    s = 1.0 if goal > rest else -1.0
+    return to_meet(out, scratch, s, goal, 0.0, s * vel, acc, dec, jerk)
 
 
 @kernel

@@ -8,6 +8,7 @@ import numpy as np
 from motionlayer._kernel import kernel
 from motionlayer.profile._check import BAD_LIMITS, FINE, JUMP, REASONS, check, is_limit, strays
 from motionlayer.profile._kernels import Floats, extent, to_rest, to_velocity
+from motionlayer.profile._stop import stop_displacement, stop_position
 
 MAX_PIECES: Final = 20
 """Most pieces of a plan: three ramps and a correction on each way, twice, and the endless last one."""
@@ -69,6 +70,8 @@ def plan(
         count = to_rest(out, scratch, target - p, vel, acc, dec, jerk)
     else:
         count = to_velocity(out, target, acc, dec, jerk)
+        if target == 0.0 and count > 1:  # the same end as `stop_position`, bit for bit
+            out[count - 1, 1] = stop_displacement(v, a, dec, jerk)
     for k in range(count):
         out[k, 1] += p
     if to_position:
@@ -127,6 +130,19 @@ def plan_stop(p: float, v: float, a: float, limits: Limits) -> Profile:
         PlanError: the result failed its check.
     """
     return _planned(p, v, a, 0.0, False, limits)
+
+
+def stop_at(p: float, v: float, a: float, limits: Limits) -> float:
+    """Return where `plan_stop` comes to rest, without the plan: bit for bit the same, in closed form.
+
+    Raises:
+        PlanError: a limit or a part of the state is no finite number, or the place is none.
+    """
+    if is_limit(limits.deceleration) and is_limit(limits.jerk) and math.isfinite(0.5 * a * abs(a) / limits.jerk):
+        place = stop_position(p, v, a, limits.deceleration, limits.jerk)
+        if math.isfinite(place):
+            return place
+    raise PlanError(f"a limit, the state or the place is no finite number: stop_at({p!r}, {v!r}, {a!r}, {limits!r})")
 
 
 def rest_at(p: float) -> Profile:

@@ -10,9 +10,12 @@ A trace is a JSON header followed by chunks. All integers are little-endian, all
     TAIL    JSON: ticks, hash; absent when the writer did not come to its end
 
 A column of a block is stored as one value if all its bits agree, as differences of integers times the
-resolution of its signal if that signal is quantised, and else as it is. A file whose writer died is read up
-to its last whole chunk; plans and events are written before the rows that show them. The encoder is the same
-for files and memory.
+resolution of its signal if that signal is quantised, and else as it is. Plans and events are written before the
+rows that show them. The encoder is the same for files and memory.
+
+A file is read up to its last whole chunk. If it ends there, or inside of the next chunk, its writer was killed: the
+trace is incomplete. Anything else is damage, and `Trace.damage` names it: a checksum or a length that does not fit,
+bytes that are no chunk, an end that counts other ticks than there are rows, bytes behind that end.
 
 In the cycle a `Recorder` copies one row with one kernel call. Full blocks go to a thread that encodes, writes
 and hashes them; three blocks exist, and when none is free the run waits, so nothing is lost.

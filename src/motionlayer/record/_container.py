@@ -1,10 +1,11 @@
 """The container: a head, then chunks that each prove themselves. What is in them is not its business."""
 
 import json
+import re
 import struct
 import zlib
 from collections.abc import Iterator
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from motionlayer.record._errors import TraceError
 
@@ -21,6 +22,22 @@ ROWS: Final = b"ROWS"
 PLAN: Final = b"PLAN"
 EVENT: Final = b"EVNT"
 TAIL: Final = b"TAIL"
+TAGS: Final = (ROWS, PLAN, EVENT, TAIL)
+
+
+class Chunk(NamedTuple):
+    """A whole chunk, and the offset at which it begins."""
+
+    offset: int
+    tag: bytes
+    payload: memoryview
+
+
+class Break(NamedTuple):
+    """Where no whole chunk begins; damage is "" if one is merely cut off there."""
+
+    offset: int
+    damage: str
 
 
 def pack_head(header: Header) -> bytes:
@@ -71,18 +88,47 @@ def _header(data: memoryview) -> Header | None:
     return header if isinstance(header, dict) else None
 
 
-def chunks(data: memoryview, offset: int = 0) -> Iterator[tuple[bytes, memoryview] | None]:
-    """Yield tag and payload of every whole chunk; at damage or a cut yield None and end."""
+def chunks(data: memoryview, offset: int = 0) -> Iterator[Chunk | Break]:
+    """Yield every whole chunk; at a cut or at damage yield what is there and end."""
     while offset < len(data):
-        start = offset + CHUNK_HEAD
-        if start > len(data):
-            yield None
+        if not _whole(data, offset):
+            yield Break(offset, _damage(data, offset))
             return
         tag, length = CHUNK.unpack_from(data, offset)
-        (crc,) = CRC.unpack_from(data, offset + CHUNK.size)
-        payload = data[start : start + length]
-        if len(payload) < length or zlib.crc32(payload, zlib.crc32(data[offset : offset + CHUNK.size])) != crc:
-            yield None
-            return
-        yield tag, payload
-        offset = start + length
+        end = offset + CHUNK_HEAD + length
+        yield Chunk(offset, tag, data[offset + CHUNK_HEAD : end])
+        offset = end
+
+
+def _whole(data: memoryview, offset: int, length: int | None = None) -> bool:
+    """Tell whether a whole chunk begins at an offset; `length` stands in for the one it states."""
+    start = offset + CHUNK_HEAD
+    if start > len(data):
+        return False
+    tag, stated = CHUNK.unpack_from(data, offset)
+    length = stated if length is None else length
+    if length > len(data) - start:
+        return False
+    (crc,) = CRC.unpack_from(data, offset + CHUNK.size)
+    return bool(zlib.crc32(data[start : start + length], zlib.crc32(CHUNK.pack(tag, length))) == crc)
+
+
+def _damage(data: memoryview, offset: int) -> str:
+    """Return what is wrong where no whole chunk begins, "" if a writer that was killed may have left this."""
+    tag = bytes(data[offset : offset + len(ROWS)])
+    if not any(known.startswith(tag) for known in TAGS):
+        return f"no chunk begins with {tag!r}"
+    rest = len(data) - offset - CHUNK_HEAD
+    if rest < 0:
+        return ""
+    name = tag.decode()
+    if CHUNK.unpack_from(data, offset)[1] <= rest:
+        return f"the checksum of the {name} chunk does not fit"
+    # It seems to go on behind the end of the file. If it is whole up to there, or chunks follow, its length is wrong.
+    if _whole(data, offset, rest) or _chunk_follows(data, offset + CHUNK_HEAD):
+        return f"the length of the {name} chunk does not fit"
+    return ""
+
+
+def _chunk_follows(data: memoryview, offset: int) -> bool:
+    return any(_whole(data, offset + found.start()) for found in re.finditer(b"|".join(TAGS), data[offset:]))

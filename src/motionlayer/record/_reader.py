@@ -4,7 +4,7 @@ import json
 import struct
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from itertools import chain
+from typing import Any
 
 from motionlayer.event import Event
 from motionlayer.record import _container as container
@@ -15,7 +15,7 @@ from motionlayer.record._rows import RowBlock
 
 @dataclass
 class Content:
-    """What was read, up to the first damaged or cut off place."""
+    """What was read, up to the first damaged or cut off place; `damage` says what is wrong there."""
 
     header: container.Header
     signals: tuple[Signal, ...]
@@ -24,6 +24,12 @@ class Content:
     events: list[Event] = field(default_factory=list)
     hash: str = ""
     complete: bool = False
+    damage: str = ""
+
+    @property
+    def ticks(self) -> int:
+        """Number of rows."""
+        return sum(block.ticks for block in self.blocks)
 
     def take(self, tag: bytes, payload: memoryview) -> None:
         """Add a chunk; tags of a later version are passed over."""
@@ -34,8 +40,17 @@ class Content:
         elif tag == container.EVENT:
             self.events.append(decode_event(payload))
         elif tag == container.TAIL:
-            self.hash = str(json.loads(bytes(payload))["hash"])
-            self.complete = True
+            self._end(json.loads(bytes(payload)))
+
+    def _end(self, tail: Any) -> None:  # noqa: ANN401 - whatever JSON holds
+        if self.signals and tail["ticks"] != self.ticks:  # without signals no rows are kept
+            raise ValueError(f"it counts {tail['ticks']} ticks, the rows before it hold {self.ticks}")
+        self.hash = str(tail["hash"])
+        self.complete = True
+
+    def spoil(self, damage: str) -> None:
+        """Note damage; what is damaged is neither complete nor does it have a hash."""
+        self.damage, self.complete, self.hash = damage, False, ""
 
 
 def read(parts: Iterable[bytes], name: str) -> Content:
@@ -44,20 +59,42 @@ def read(parts: Iterable[bytes], name: str) -> Content:
     Raises:
         TraceError: the head is foreign or damaged. Damage behind it ends the reading.
     """
-    views: Iterator[memoryview] = (memoryview(part) for part in parts)
-    head = next(views, memoryview(b""))
-    header, offset = container.unpack_head(head, name)
+    views = [memoryview(part) for part in parts]
+    header, offset = container.unpack_head(views[0] if views else memoryview(b""), name)
     content = Content(header, _signals(header, name))
-    streams = chain([container.chunks(head, offset)], (container.chunks(view) for view in views))
-    for chunk in chain.from_iterable(streams):
-        if chunk is None or content.complete:
-            content.complete = False  # damaged, or something behind the tail
-            break
-        try:
-            content.take(*chunk)
-        except (ValueError, LookupError, TypeError, struct.error):
+    total = sum(map(len, views))
+    for number, chunk in enumerate(_chunks(views, offset), 1):
+        left = total - chunk.offset
+        if content.complete:
+            whole = f"the trace ends at offset {chunk.offset} with all of its {content.ticks} ticks"
+            content.spoil(f"{whole}; the {left} bytes behind its end do not belong to it")
+        elif damage := _take(content, chunk):
+            where = f"chunk {number} at offset {chunk.offset}: {damage}"
+            content.spoil(f"{where}; {content.ticks} ticks were read, {left} of {total} bytes were not")
+        if content.damage or isinstance(chunk, container.Break):
             break
     return content
+
+
+def _chunks(views: Iterable[memoryview], offset: int) -> Iterator[container.Chunk | container.Break]:
+    """Yield the chunks of all views, with offsets from the beginning of the first one."""
+    before = 0
+    for view in views:
+        for chunk in container.chunks(view, offset):
+            yield chunk._replace(offset=before + chunk.offset)
+        before += len(view)
+        offset = 0
+
+
+def _take(content: Content, chunk: container.Chunk | container.Break) -> str:
+    """Add a chunk to what was read; return what is wrong with it, "" if nothing is or if it is cut off."""
+    if isinstance(chunk, container.Break):
+        return chunk.damage
+    try:
+        content.take(chunk.tag, chunk.payload)
+    except (ValueError, LookupError, TypeError, struct.error) as error:
+        return f"the {chunk.tag.decode()} chunk makes no sense: {error}"
+    return ""
 
 
 def _signals(header: container.Header, name: str) -> tuple[Signal, ...]:

@@ -1,6 +1,7 @@
 """`Trace`: a recorded run as a mapping of names to arrays."""
 
 from collections.abc import Iterable, Iterator, Mapping
+from difflib import get_close_matches
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -22,6 +23,9 @@ Floats = NDArray[np.float64]
 SAVE_TICKS: Final = 4096
 """Rows per block of a saved trace."""
 
+NEAREST: Final = 3
+"""Signals that are named in the place of an unknown one."""
+
 
 class Trace(Mapping[str, Floats]):
     """A recorded run: signal name to read-only float64 array of shape (ticks,), in the order of the header.
@@ -35,6 +39,9 @@ class Trace(Mapping[str, Floats]):
         events: in order. Plans and events of a trace that is not complete may be younger than its last row.
         hash: of the run, hexadecimal; "" if not taken, if the trace is not complete or values were replaced.
         complete: whether the writer came to its end and nothing is damaged; else this is what stands before.
+        damage: where and how the file is damaged, and how much of it was read; "" if it is not. A trace that
+            is neither damaged nor complete broke off, because its writer was killed or could not write. It is
+            no part of the comparison of two traces, and a damaged trace is saved as one that broke off.
         base_cycle: s.
         ticks: int64, number of every row; a jump is a gap in the recording.
         time: s, of every row.
@@ -49,6 +56,7 @@ class Trace(Mapping[str, Floats]):
         self.events: tuple[Event, ...] = tuple(content.events)
         self.hash: str = content.hash
         self.complete: bool = content.complete
+        self.damage: str = content.damage
         self.base_cycle: float = self.header["base_cycle_ns"] / 1e9
         spans = [np.arange(block.first, block.first + block.ticks) for block in content.blocks]
         self.ticks: NDArray[np.int64] = _sealed(np.concatenate([np.empty(0, np.int64), *spans]))
@@ -83,11 +91,17 @@ class Trace(Mapping[str, Floats]):
     def __getitem__(self, name: str) -> Floats:
         array = self._arrays.get(name)
         if array is None:
-            signal = self._columns[name]
+            signal = self._signal(name)
             parts = [block.column(signal.index, signal.resolution) for block in self._blocks]
             array = _sealed(np.concatenate([np.empty(0), *parts]))
             self._arrays[name] = array
         return array
+
+    def _signal(self, name: str) -> "Signal":
+        signal = self._columns.get(name)
+        if signal is None:
+            raise KeyError(_unknown(name, list(self._columns)))
+        return signal
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
@@ -109,7 +123,7 @@ class Trace(Mapping[str, Floats]):
 
     def __repr__(self) -> str:
         size = f"{len(self)} signals x {len(self.ticks)} ticks of {self.base_cycle:g} s"
-        state = "" if self.complete else ", incomplete"
+        state = "" if self.complete else ", damaged" if self.damage else ", incomplete"
         extras = f"{len(self.plans)} plans, {len(self.events)} events"
         return f"<Trace {self._name or 'in memory'}: {size}, {extras}{state}>"
 
@@ -125,13 +139,11 @@ class Trace(Mapping[str, Floats]):
         other = object.__new__(Trace)
         other.__dict__.update(self.__dict__, _arrays=dict(self._arrays), hash="")
         for name, values in arrays.items():
-            if name not in self._columns:
-                raise KeyError(f"no signal {name!r} in {self!r}")
+            signal = self._signal(name)
             array = np.array(values, dtype=np.float64)
             if array.shape != self.ticks.shape:
                 raise ValueError(f"{name}: shape {array.shape}; {self.ticks.shape} is expected")
-            resolution = self._columns[name].resolution
-            other._arrays[name] = _sealed(quantise(array, resolution) if resolution else array)
+            other._arrays[name] = _sealed(quantise(array, signal.resolution) if signal.resolution else array)
         return other
 
     def save(self, path: str | Path) -> None:
@@ -154,6 +166,15 @@ class Trace(Mapping[str, Floats]):
                 writer.close(len(self.ticks), self.hash)
         finally:
             writer.abandon()
+
+
+def _unknown(name: str, known: list[str]) -> str:
+    """Return what is said to someone who asks for a signal that was not recorded."""
+    axis = name.rpartition(".")[0]
+    own = [other for other in known if other.rpartition(".")[0] == axis]
+    near = ", ".join(get_close_matches(name, own or known, NEAREST, 0.0))
+    what = f"signal {name!r}" if own or not axis else f"axis {axis!r}"
+    return f"no {what} in the trace; nearest: {near}" if near else f"no {what}: the trace has no signals"
 
 
 def _sealed(array: NDArray[Any]) -> NDArray[Any]:

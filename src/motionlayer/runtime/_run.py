@@ -162,8 +162,11 @@ class Run:
         """Run a number of ticks, programs or not.
 
         Raises:
+            RuntimeError: called in a program.
             CycleFault: a step of the runtime itself failed.
         """
+        if self._ledger.issuer is not None:
+            raise RuntimeError("a program cannot run ticks itself: await run.sleep(seconds) or a command")
         try:
             for _ in range(ticks):
                 self._tick()

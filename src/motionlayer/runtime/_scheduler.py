@@ -133,7 +133,7 @@ class Scheduler:
     def _fail(self, program: Program, failure: BaseException) -> None:
         program.failure = failure
         text = describe(failure)
-        known = failure.error.id if isinstance(failure, CommandError) else ErrorId.INTERNAL
+        known = failure.error.id if isinstance(failure, CommandError) else ErrorId.PROGRAM_FAILED
         awaited = program.awaited
         self._tell(program, Level.ERROR, Kind.ERROR, text, known)
         program.fail(MotionError(known, program.name, text))

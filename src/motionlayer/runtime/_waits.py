@@ -60,7 +60,7 @@ class Until(Command[None]):
             held = bool(self.predicate())
         except Exception as error:  # noqa: BLE001 - the program's own fault
             self._raised = error
-            self.fail(MotionError(ErrorId.INTERNAL, self.name, f"{type(error).__name__}: {error}"))
+            self.fail(MotionError(ErrorId.PROGRAM_FAILED, self.name, f"{type(error).__name__}: {error}"))
             return True
         if held:
             self.finish(None)

@@ -20,7 +20,7 @@ The set jerk is the mean over the cycle that ends at n, (a(n) - a(n-1)) / dt: wh
 """
 
 from motionlayer.store._kernels import take_over
-from motionlayer.store._layout import JOB_OTHER, JOB_POSITION, JOB_VELOCITY, PIECE_FIELDS, Q
+from motionlayer.store._layout import JOB_OTHER, JOB_POSITION, JOB_VELOCITY, PIECE_FIELDS, Q, Status
 from motionlayer.store._store import Ended, Snapshot, Store, Watch
 
 __all__ = [
@@ -31,6 +31,7 @@ __all__ = [
     "Ended",
     "Q",
     "Snapshot",
+    "Status",
     "Store",
     "Watch",
     "take_over",

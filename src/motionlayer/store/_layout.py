@@ -45,8 +45,25 @@ class Q:
     JOB_V: Final = 28
     COMMAND: Final = 29
     REQUEST: Final = 30
+    # set(n - dead time) - actual(n); bits of `Status`; 1 asks the drive to clear its errors, which sets it to 0
+    LAG: Final = 31
+    STATUS: Final = 32
+    DRIVE_RESET: Final = 33
+    # where the motion in force ends, NaN where it does not
+    TARGET: Final = 34
 
-    COUNT: Final = 31
+    COUNT: Final = 35
+
+
+class Status:
+    """Bits of the row `Q.STATUS`: what a drive reports beside its readiness. Errors stay until they are reset."""
+
+    DRIVE_ERROR: Final = 1
+    ENCODER_ERROR: Final = 2
+    INVALID: Final = 4
+    """No communication: the actual values are those of an earlier tick."""
+    LOST: Final = 8
+    """Error: invalid for too many cycles."""
 
 
 JOB_OTHER: Final = 0

@@ -43,11 +43,12 @@ class Report:
     Attributes:
         findings: what is wrong, axis by axis in the order of the rules.
         refused: what could not be judged at all, and why; a trace with refusals is not `ok`.
-        notes: what was left out because the trace does not contain it, and whether the trace is incomplete.
+        notes: what was left out because the trace does not contain it, and where a trace that is not whole ends.
         axes: names of the axes that were judged.
         ticks: number of rows.
         plans: number of plans of the judged axes.
         commands: number of commands seen in the events.
+        complete: whether the trace is whole, neither incomplete nor damaged; `ok` speaks of what was judged of it.
     """
 
     findings: tuple[Finding, ...]
@@ -57,6 +58,7 @@ class Report:
     ticks: int
     plans: int
     commands: int
+    complete: bool = True
 
     @property
     def ok(self) -> bool:
@@ -64,12 +66,18 @@ class Report:
         return not self.findings and not self.refused
 
     def __str__(self) -> str:
-        verdict = "valid" if self.ok else "NOT VALID" if self.findings else "REFUSED"
         judged = f"{len(self.axes)} axes ({', '.join(self.axes) or 'none'}), {self.ticks} ticks"
         counts = f"{self.plans} plans, {self.commands} commands"
         result = f"{len(self.findings)} findings, {len(self.refused)} refusals"
-        lines = [f"{verdict}: {judged}, {counts}; {result}"]
+        lines = [f"{self._verdict()}: {judged}, {counts}; {result}"]
         lines += [f"  {finding}" for finding in self.findings]
         lines += [f"  cannot judge: {reason}" for reason in self.refused]
         lines += [f"  note: {note}" for note in self.notes]
         return "\n".join(lines)
+
+    def _verdict(self) -> str:
+        if self.findings:
+            return "NOT VALID"
+        if self.refused:
+            return "REFUSED"
+        return "valid" if self.complete else "INCOMPLETE"

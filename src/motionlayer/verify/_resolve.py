@@ -15,9 +15,19 @@ COARSEST: Final = 0.1
 """Largest share of what a limit allows in one cycle that a resolution may hide."""
 
 
-def unresolved_trace(trace: "Trace") -> list[str]:
-    """Return why the trace as a whole cannot be judged."""
+def broken_off(trace: "Trace", *, partial: bool) -> list[str]:
+    """Return a note if only a part of the trace is judged: why, and up to where."""
+    if trace.complete or not len(trace.ticks) or (trace.damage and not partial):
+        return []
+    why = f"file is damaged: {trace.damage}" if trace.damage else "trace is incomplete, its writer was cut short"
+    return [f"the {why}; judged up to tick {int(trace.ticks[-1])} ({float(trace.time[-1]):.6f} s)"]
+
+
+def unresolved_trace(trace: "Trace", *, partial: bool) -> list[str]:
+    """Return why the trace as a whole cannot be judged; with `partial` damage is no reason."""
     header, reasons = trace.header, []
+    if trace.damage and not partial:
+        reasons.append(f"the file is damaged: {trace.damage}")
     if header.get("format") != FORMAT:
         reasons.append(f"format {header.get('format')!r} of the trace; format {FORMAT} is understood")
     if not header.get("machine", {}).get("axis"):
@@ -71,7 +81,10 @@ def not_judged(trace: "Trace", name: str) -> list[str]:
     """Return a note if signals are missing that rules would have looked at."""
     missing = [signal for signal in OTHER_SIGNALS if f"{name}.{signal}" not in trace]
     notes = [f"{name}: not recorded, hence not judged: {', '.join(missing)}"] if missing else []
-    kind = trace.header["machine"]["axis"][name].get("drive", {}).get("kind")
-    if kind != "ideal":
+    axis = trace.header["machine"]["axis"][name]
+    kind, limit = axis.get("drive", {}).get("kind"), axis.get("monitor", {}).get("lag")
+    if kind == "servo" and limit is None:
+        notes.append(f"{name}: the lag of the servo drive is not judged, its monitor has no limit for it")
+    elif kind not in {"ideal", "servo"}:
         notes.append(f"{name}: the actual position of a drive of kind {kind!r} is not judged")
     return notes

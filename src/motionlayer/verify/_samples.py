@@ -5,25 +5,19 @@ from typing import Final
 import numpy as np
 
 from motionlayer.verify._axis import LIMITS, Axis
-from motionlayer.verify._curves import Flags, Floats
+from motionlayer.verify._curves import Floats
 from motionlayer.verify._report import Finding
 from motionlayer.verify._states import MAY_BE_OUTSIDE
-from motionlayer.verify._tolerance import TOLERANCES, quantisation, sample_tolerance
+from motionlayer.verify._tolerance import TOLERANCES, differs, quantisation, sample_tolerance
 
 SET: Final = (("set_position", "p", 0), ("set_velocity", "v", 1), ("set_acceleration", "a", 2))
-
-
-def _differs(value: Floats, expected: Floats, allowed: Floats | float) -> Flags:
-    """Tell which samples are off; a nan is, equal infinities are not."""
-    with np.errstate(invalid="ignore"):
-        return np.asarray(~(np.abs(value - expected) <= allowed) & (value != expected))
 
 
 def _against(axis: Axis, rule: str, signal: str, expected: Floats, *, order: int, text: str) -> list[Finding]:
     if signal not in axis.signals:
         return []
     value = axis.signals[signal]
-    bad = _differs(value, expected, sample_tolerance(axis, signal))
+    bad = differs(value, expected, sample_tolerance(axis, signal))
     return axis.findings(rule, bad, axis.ticks, f"{signal} {text}", value=value, limit=expected, order=order)
 
 
@@ -53,14 +47,6 @@ def limit_signals(axis: Axis) -> list[Finding]:
         text = "is not the machine's"
         found += _against(axis, "limit signal", f"software_limit_{side}", limit, order=0, text=text)
     return found
-
-
-def actual_position(axis: Axis) -> list[Finding]:
-    """The actual position of an ideal drive is its set position. Other drives are not judged."""
-    if axis.machine.get("drive", {}).get("kind") != "ideal":
-        return []
-    text = "of an ideal drive is not the set position"
-    return _against(axis, "actual position", "actual_position", axis.reference.p, order=0, text=text)
 
 
 def override(axis: Axis) -> list[Finding]:

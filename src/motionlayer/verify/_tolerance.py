@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from motionlayer.verify._axis import LIMITS, Axis
-from motionlayer.verify._curves import Curves, Floats, Integers, Point
+from motionlayer.verify._curves import Curves, Flags, Floats, Integers, Point
 
 if TYPE_CHECKING:
     from motionlayer.record import Trace
@@ -80,6 +80,12 @@ TOLERANCES: Final[Mapping[str, Tolerance]] = MappingProxyType(
         ),
     }
 )
+
+
+def differs(value: Floats, expected: Floats, allowed: Floats | float) -> Flags:
+    """Tell which samples are off; a nan is, equal infinities are not."""
+    with np.errstate(invalid="ignore"):
+        return np.asarray(~(np.abs(value - expected) <= allowed) & (value != expected))
 
 
 def _relative(name: str) -> float:

@@ -3,12 +3,12 @@
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Final
 
-from motionlayer.verify import _bounds, _plans, _samples
+from motionlayer.verify import _bounds, _drives, _plans, _samples
 from motionlayer.verify._axis import Axis
 from motionlayer.verify._commands import command_rules
 from motionlayer.verify._lives import Life, life_findings, read_lives
 from motionlayer.verify._report import Finding, Report
-from motionlayer.verify._resolve import not_judged, unresolved_axis, unresolved_trace
+from motionlayer.verify._resolve import broken_off, not_judged, unresolved_axis, unresolved_trace
 from motionlayer.verify._states import state_rules
 from motionlayer.verify._wellformed import malformed
 
@@ -23,7 +23,7 @@ RULES: Final[tuple[Callable[[Axis], list[Finding]], ...]] = (
     _bounds.planned_limits,
     _samples.set_values,
     _samples.set_jerk,
-    _samples.actual_position,
+    _drives.actual_position,
     _samples.limit_signals,
     _samples.override,
     _samples.differences,
@@ -33,21 +33,22 @@ RULES: Final[tuple[Callable[[Axis], list[Finding]], ...]] = (
 """Rules over one axis whose plans follow one another."""
 
 
-def verify(trace: "Trace") -> Report:
+def verify(trace: "Trace", *, partial: bool = False) -> Report:
     """Judge a trace from its samples, plans, events and header alone; its stored hash is not looked at.
 
-    An incomplete trace is judged to its end, and named so in the notes.
+    An incomplete trace is judged to where it ends, and `complete` of the report is False.
 
     Args:
         trace: any trace, also one from another installation.
+        partial: judge a damaged trace as well, as far as it was read, instead of refusing it.
 
     Returns:
         The report; `ok` if everything was judged and nothing is wrong.
     """
-    notes = [] if trace.complete else ["the trace is incomplete; it was judged to where it ends"]
+    notes = broken_off(trace, partial=partial)
     lives, wrong = read_lives(trace.events)
     findings = life_findings(trace, wrong)
-    refused = unresolved_trace(trace)
+    refused = unresolved_trace(trace, partial=partial)
     judged: list[str] = []
     for name in [] if refused else trace.header["machine"]["axis"]:
         reasons = unresolved_axis(trace, name)
@@ -64,6 +65,7 @@ def verify(trace: "Trace") -> Report:
         ticks=len(trace.ticks),
         plans=sum(plan.axis in judged for plan in trace.plans),
         commands=len(lives),
+        complete=trace.complete,
     )
 
 
@@ -84,17 +86,18 @@ def _judge(trace: "Trace", name: str, lives: Mapping[int, Life]) -> list[Finding
     return [*findings, *state_rules(axis, lives), *command_rules(axis, lives)]
 
 
-def assert_valid(trace: "Trace") -> None:
-    """Raise AssertionError with the text of the report unless `verify` finds the trace valid.
+def assert_valid(trace: "Trace", *, partial: bool = False) -> None:
+    """Raise AssertionError with the text of the report unless `verify` finds the trace whole and valid.
 
     The helper for tests that move something.
 
     Args:
         trace: any trace.
+        partial: be content with a part: with a trace that is incomplete or damaged.
 
     Raises:
-        AssertionError: something is wrong, or could not be judged.
+        AssertionError: something is wrong or could not be judged, or the trace is not whole.
     """
-    report = verify(trace)
-    if not report.ok:
+    report = verify(trace, partial=partial)
+    if not report.ok or not (report.complete or partial):
         raise AssertionError(str(report))

@@ -14,8 +14,11 @@ The same code runs as a test for some seconds and as a campaign for hours.
 from typing import Final
 
 from motionlayer.bench.campaign._campaign import Campaign, Failure
+from motionlayer.bench.campaign._life import LIFE
+from motionlayer.bench.campaign._mutation import MUTATION
 from motionlayer.bench.campaign._planning import PLANNING
+from motionlayer.bench.campaign._pursuit import State, StateError, pursue, repeat, resume
 
-CAMPAIGNS: Final = {campaign.name: campaign for campaign in (PLANNING,)}
+CAMPAIGNS: Final = {campaign.name: campaign for campaign in (PLANNING, LIFE, MUTATION)}
 
-__all__ = ["CAMPAIGNS", "Campaign", "Failure"]
+__all__ = ["CAMPAIGNS", "Campaign", "Failure", "State", "StateError", "pursue", "repeat", "resume"]

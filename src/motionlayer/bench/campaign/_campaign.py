@@ -27,7 +27,7 @@ class Campaign(NamedTuple):
         unit: what is counted, in plural.
         size: how many of it a case holds.
         batch: cases that are made together; a case alone costs as much.
-        count: of a full campaign, in `unit`.
+        full: count of a full campaign, in `unit`.
         run: given the seed and the numbers of cases of one batch, returns those that went wrong.
         describe: given the seed and a case, returns its input as text.
     """
@@ -36,7 +36,7 @@ class Campaign(NamedTuple):
     unit: str
     size: int
     batch: int
-    count: int
+    full: int
     run: Callable[[int, range], list[Failure]]
     describe: Callable[[int, int], str]
 

@@ -44,14 +44,14 @@ class Batch(NamedTuple):
     @property
     def pull(self) -> Floats:
         """The largest acceleration of limits and start, shape (n, 1)."""
-        return np.maximum(self.limits[:, 1:3].max(axis=1), np.abs(self.start[:, 2]))[:, None]
+        return np.asarray(np.maximum(self.limits[:, 1:3].max(axis=1), np.abs(self.start[:, 2]))[:, None])
 
     @property
     def speed(self) -> Floats:
         """The velocity limit, or what the start cannot avoid at full jerk, shape (n, 1)."""
         v, a, jerk = self.start[:, 1], self.start[:, 2], self.limits[:, 3]
         unavoidable = np.maximum(np.abs(v), np.abs(v + 0.5 * a * np.abs(a) / jerk))
-        return np.maximum(self.limits[:, 0], unavoidable)[:, None]
+        return np.asarray(np.maximum(self.limits[:, 0], unavoidable)[:, None])
 
 
 def faults(problems: Sequence[Problem], profiles: Sequence[Profile]) -> dict[int, str]:
@@ -184,9 +184,9 @@ def _passes(b: Batch, v: Floats, cuts: Floats) -> Flags:
     """Tell at which cuts inside a piece the velocity changes its sign."""
     before, after = np.roll(v, 1, axis=2), np.roll(v, -1, axis=2)
     inside = (cuts > 0.0) & (cuts < b.length[:, :, None])
-    return inside & (np.abs(v) <= SLACK * b.speed[:, :, None]) & (before * after < 0.0)
+    return np.asarray(inside & (np.abs(v) <= SLACK * b.speed[:, :, None]) & (before * after < 0.0))
 
 
 def _lingers(b: Batch, most: Floats) -> Flags:
     """Tell which pieces stay at a velocity above the limit."""
-    return (b.length > 0.0) & (b.j == 0.0) & (b.a == 0.0) & (np.abs(b.v) > most)
+    return np.asarray((b.length > 0.0) & (b.j == 0.0) & (b.a == 0.0) & (np.abs(b.v) > most))

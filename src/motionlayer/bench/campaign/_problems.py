@@ -18,7 +18,7 @@ UNITS: Final = (1.0, 1e3, 1e-3, 72.0)
 """Lengths of a millimetre in mm, µm, m, and degrees of a spindle of 5 mm a turn."""
 
 LARGEST_JERK: Final = 1e9
-PURPOSE: Final = 1
+STREAM: Final = 1
 KINDS: Final = ("position", "velocity", "stop")
 SHARES: Final = (0.7, 0.2, 0.1)
 """Of the kinds."""
@@ -53,7 +53,7 @@ class Problem(NamedTuple):
 
 def problems(seed: int, block: int) -> list[Problem]:
     """Return a block of problems, the families in turn."""
-    rng = stream(seed, block, PURPOSE)
+    rng = stream(seed, block, STREAM)
     rows = BLOCK // len(FAMILIES)
     columns = np.stack([family(rng, rows) for family in FAMILIES.values()], axis=1).reshape(BLOCK, -1)
     kinds = rng.choice(len(KINDS), BLOCK, p=SHARES)

@@ -10,8 +10,8 @@ from motionlayer.record.plot._reduce import Floats
 from motionlayer.record.plot._series import axes_of, column
 
 MOST_AXES: Final = 24
-UNITS: Final = {"position": "", "lag": "", "velocity": "/s", "acceleration": "/s²", "jerk": "/s³"}
-"""Panels in order, and what their unit adds to that of the axis."""
+UNITS: Final = {"position": "", "lag": "", "velocity": "/s", "acceleration": "/s²", "jerk": "/s³", "override": "%"}
+"""Panels in order, and what their unit adds to that of the axis; % stands alone."""
 
 LAG_SHARE: Final = 1e-9
 """A lag below this share of the positions is rounding, and not drawn."""
@@ -41,6 +41,11 @@ def drawn_axes(trace: Trace) -> list[str]:
     return list(axes_of(trace))[:MOST_AXES]
 
 
+def unit_of(panel: str, axis_unit: str) -> str:
+    """Return the unit of what is drawn of an axis in a panel."""
+    return UNITS[panel] if panel == "override" else axis_unit + UNITS[panel]
+
+
 def curves_of(trace: Trace) -> list[Curve]:
     """Return what is drawn over time, as far as it was recorded."""
     curves = []
@@ -49,6 +54,9 @@ def curves_of(trace: Trace) -> list[Curve]:
             values = column(trace, axis, f"set_{panel}")
             if values is not None:
                 curves.append(Curve(panel, axis, values))
+        override = column(trace, axis, "override")
+        if override is not None and (override != 1.0).any():
+            curves.append(Curve("override", axis, 100.0 * override))
         curves += _actual(axis, column(trace, axis, "set_position"), column(trace, axis, "actual_position"))
         for limit, panel, sign in LIMITS:
             values = column(trace, axis, limit)

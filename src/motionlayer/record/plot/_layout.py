@@ -1,35 +1,40 @@
-"""Panels over one time axis, from the top: the strip of the whole run, the curves, the states."""
+"""Panels over one time axis, from the top: the strip of the whole run, the curves, the events, the states."""
 
+from html import escape
 from typing import Any, Final
 
 import numpy as np
 import plotly.graph_objects as go
 
 from motionlayer.record._trace import Trace
-from motionlayer.record.plot._curves import UNITS
+from motionlayer.record.plot._curves import UNITS, unit_of
 from motionlayer.record.plot._series import axes_of, opening
 from motionlayer.record.plot._style import SOFT, axis_style, common
 
-PIXELS: Final = {"position": 230, "lag": 110, "velocity": 170, "acceleration": 170, "jerk": 140}
-STATE_PIXELS: Final = 22
+PIXELS: Final = {"position": 230, "lag": 110, "velocity": 170, "acceleration": 170, "jerk": 140, "override": 80}
+ROW_PIXELS: Final = {"events": 20, "state": 22}
+"""Panels of rows, one below another, and the height of each row."""
+
 GAP_PIXELS: Final = 24
 STRIP_PIXELS, STRIP_GAP_PIXELS = 60, 54
 TOP_PIXELS, BOTTOM_PIXELS = 40, 46
-SLIDER_SHIFT: Final = 14
-"""Plotly draws a range slider so much below its axis, px."""
+SLIDER_SHIFT: Final = 18
+"""Plotly draws a range slider so much below its axis, px; a few of them depend on the height of the chart."""
 
 MOST_TICKS: Final = 8
 NO_HEIGHT: Final = 1.0 / 256.0
 """Share of the height that the panel of the strip takes: with less, plotly takes all or shows what lies outside."""
 
+MOST_LETTERS: Final = 9
+"""Of the name of a row: more would run into the title of its panel."""
+
 HIDDEN: Final = {"showgrid": False, "showline": False, "showticklabels": False, "ticks": "", "zeroline": False}
 
 
-def layout(figure: go.Figure, trace: Trace, panels: list[str], states: int) -> dict[str, str]:
-    """Stack the panels, and those of the states of so many axes; return the name of the y axis of each."""
+def layout(figure: go.Figure, trace: Trace, panels: list[str], rows: dict[str, list[str]]) -> dict[str, str]:
+    """Stack the panels of curves and those of rows, given by their names; return the name of the y axis of each."""
     heights = {panel: PIXELS[panel] for panel in panels}
-    if states:
-        heights["state"] = STATE_PIXELS * states + 8
+    heights |= {panel: ROW_PIXELS[panel] * len(names) + 8 for panel, names in rows.items() if names}
     strip = STRIP_PIXELS + STRIP_GAP_PIXELS if "position" in panels else 0
     inner = strip + sum(heights.values()) + GAP_PIXELS * (len(heights) - 1)
     anchors = {}
@@ -37,7 +42,8 @@ def layout(figure: go.Figure, trace: Trace, panels: list[str], states: int) -> d
     for number, (panel, pixels) in enumerate(heights.items(), 2):
         anchors[panel] = f"y{number}"
         domain = (max(top - pixels, 0.0) / inner, top / inner)
-        figure.update_layout({f"yaxis{number}": _y_axis(panel, _unit(trace, panel), domain)})
+        style = _row_axis(panel, rows[panel]) if panel in rows else _y_axis(panel, _unit(trace, panel))
+        figure.update_layout({f"yaxis{number}": {**style, "domain": domain}})
         top -= pixels + GAP_PIXELS
     figure.update_layout(
         **common(),
@@ -58,7 +64,7 @@ def layout(figure: go.Figure, trace: Trace, panels: list[str], states: int) -> d
 
 def _unit(trace: Trace, panel: str) -> str:
     units = sorted({unit for unit in axes_of(trace).values() if unit})
-    return ", ".join(f"{unit}{UNITS[panel]}" for unit in units) if panel in UNITS else ""
+    return ", ".join(dict.fromkeys(unit_of(panel, unit) for unit in units)) or UNITS[panel].lstrip("/")
 
 
 def _x_axis(trace: Trace, anchor: str) -> dict[str, Any]:
@@ -123,22 +129,38 @@ def _round_times(start: float, end: float) -> list[float]:
     return [float(time) for time in np.arange(np.ceil(start / step), np.floor(end / step) + 1.0) * step]
 
 
-def _y_axis(panel: str, unit: str, domain: tuple[float, float]) -> dict[str, Any]:
+def _y_axis(panel: str, unit: str) -> dict[str, Any]:
     text = f"{panel}<br><span style='color:{SOFT};font-size:11px'>{unit}</span>"
-    style = {**axis_style(), "domain": domain, "title": {"text": text, "font": {"size": 12}, "standoff": 6}}
-    if panel == "state":
-        return {
-            **style,
-            "type": "category",
-            "autorange": "reversed",
-            "showgrid": False,
-            "fixedrange": True,
-            "ticks": "",
-        }
     return {
-        **style,
+        **axis_style(),
+        "title": _title(text),
         "zeroline": panel != "position",
         "zerolinecolor": "#cbd2d9",
         "zerolinewidth": 1,
-        "nticks": 6,
+        "nticks": 6 if PIXELS[panel] > 100 else 4,
     }
+
+
+def _row_axis(panel: str, names: list[str]) -> dict[str, Any]:
+    return {
+        **axis_style(),
+        "title": _title(panel),
+        "type": "category",
+        "categoryorder": "array",
+        "categoryarray": names,
+        "tickvals": names,
+        "ticktext": [escape(_short(name)) for name in names],
+        "range": (len(names) - 0.5, -0.5),
+        "showgrid": False,
+        "fixedrange": True,
+        "ticks": "",
+    }
+
+
+def _short(name: str) -> str:
+    name = name.removeprefix("program ")
+    return name if len(name) <= MOST_LETTERS else f"{name[: MOST_LETTERS - 1]}…"
+
+
+def _title(text: str) -> dict[str, Any]:
+    return {"text": text, "font": {"size": 12}, "standoff": 6}

@@ -1,7 +1,7 @@
 """The path in the plane."""
 
 from collections.abc import Iterator
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 import plotly.graph_objects as go
@@ -24,15 +24,21 @@ FINEST: Final = 2.0**-12
 MARGIN: Final = 0.03
 """Free space around the path as a share of its extent."""
 
-WIDTH: Final = 1156
-"""Of the plane on a page of full width, px."""
-
-LEFT_PIXELS: Final = 68
+LEFT_PIXELS, RIGHT_PIXELS = 68, 16
 LEAST_HEIGHT, MOST_HEIGHT = 260, 720
+"""Of the plane, px."""
+
 TOP_PIXELS, BOTTOM_PIXELS = 64, 56
 
 
-def path_chart(trace: Trace, plane: tuple[str, str]) -> go.Figure:
+class PathChart(NamedTuple):
+    """The figure, and its height in CSS: as high as equal scales need at the width of the page."""
+
+    figure: go.Figure
+    height: str
+
+
+def path_chart(trace: Trace, plane: tuple[str, str]) -> PathChart:
     """Return the path of two axes in equal scales, coloured by speed, and its places of rest."""
     x, y = trace[f"{plane[0]}.set_position"], trace[f"{plane[1]}.set_position"]
     unit = axes_of(trace)[plane[0]]
@@ -40,18 +46,23 @@ def path_chart(trace: Trace, plane: tuple[str, str]) -> go.Figure:
     strokes = _strokes(trace.time[chosen], x[chosen], y[chosen], unit)
     figure = go.Figure([*strokes, _places(trace, x, y, unit)])
     x_range, y_range = _ranges(x, y)
-    height = np.clip(WIDTH * np.ptp(y_range) / np.ptp(x_range), LEAST_HEIGHT, MOST_HEIGHT)
     equal = {"scaleanchor": "x", "constrain": "domain", "constraintoward": "top"}
     figure.update_layout(
         **common(),
-        height=int(height) + TOP_PIXELS + BOTTOM_PIXELS,
-        margin={"l": LEFT_PIXELS, "r": 16, "t": TOP_PIXELS, "b": BOTTOM_PIXELS},
+        margin={"l": LEFT_PIXELS, "r": RIGHT_PIXELS, "t": TOP_PIXELS, "b": BOTTOM_PIXELS},
         showlegend=False,
         hovermode="closest",
         xaxis={**_axis(plane[0], unit, x_range), "constrain": "domain", "constraintoward": "left"},
         yaxis={**_axis(plane[1], unit, y_range), **equal},
     )
-    return figure
+    return PathChart(figure, _height(float(np.ptp(y_range) / np.ptp(x_range))))
+
+
+def _height(ratio: float) -> str:
+    """Return the height of a chart whose plane is `ratio` times as high as it is wide; 100cqw is the page's width."""
+    outside = TOP_PIXELS + BOTTOM_PIXELS
+    fitting = f"calc((100cqw - {LEFT_PIXELS + RIGHT_PIXELS}px) * {ratio:.6f} + {outside}px)"
+    return f"clamp({LEAST_HEIGHT + outside}px, {fitting}, {MOST_HEIGHT + outside}px)"
 
 
 def _vertices(time: Floats, x: Floats, y: Floats) -> Indices:

@@ -19,7 +19,11 @@ STATES: Final = {
     7: "ContinuousMotion",
     8: "SynchronizedMotion",
 }
+ERROR_STOP: Final = 3
 HOMING: Final = 5
+SHORT: Final = 15.0
+"""A run up to so long is shown as a whole at first, s."""
+
 OPENING_MOVES: Final = 8
 """Moves per axis in the stretch on which the charts open."""
 
@@ -28,6 +32,9 @@ REST_SPEED: Final = 1e-6
 
 MOVES: Final = ("position", "velocity")
 """Kinds of plans that lead somewhere."""
+
+PLANES: Final = (("X", "Y"), ("X1", "Y1"))
+"""Names of axes that span a plane; other names do not say how axes lie to one another."""
 
 PLACE_SIZE: Final = 2e-3
 """Share of the extent of a path within which places of rest are counted as one."""
@@ -73,14 +80,16 @@ def state_runs(trace: Trace, axis: str, most: int) -> list[Run]:
 
 
 def opening(trace: Trace) -> tuple[float, float]:
-    """Return from when to when the charts show a trace at first, s: a few moves after homing, else all of it."""
+    """Return from when to when the charts show a trace at first, s: a few moves after homing, or all of a short run."""
     first, last = int(trace.ticks[0]), int(trace.ticks[-1])
+    if (last - first) * trace.base_cycle <= SHORT:
+        return first * trace.base_cycle, last * trace.base_cycle
     homed = max((_homed(trace, axis) for axis in axes_of(trace)), default=first)
     moves = sorted(plan.tick for plan in trace.plans if plan.kind in MOVES and plan.tick >= homed)
     count = OPENING_MOVES * len(axes_of(trace))
     if len(moves) > count and moves[count] - moves[0] < (last - first) / 2:
         margin = 0.01 * (moves[count] - moves[0])
-        first, last = int(moves[0] - margin), int(moves[count] + margin)
+        first, last = max(first, int(moves[0] - margin)), int(moves[count] + margin)
     return first * trace.base_cycle, last * trace.base_cycle
 
 
@@ -149,12 +158,9 @@ def _peak(values: Floats | None, limit: Floats | None) -> Peak | None:
 
 
 def plane_of(trace: Trace) -> tuple[str, str] | None:
-    """Return the two axes of the plane: X and Y, else the first two of equal unit with a set position."""
+    """Return the two axes of the plane: of equal unit, and with names that say so (`PLANES`); None without."""
     units = {axis: unit for axis, unit in axes_of(trace).items() if f"{axis}.set_position" in trace}
-    if "X" in units and "Y" in units:
-        return "X", "Y"
-    names = list(units)
-    pairs = ((one, two) for n, one in enumerate(names) for two in names[n + 1 :] if units[one] == units[two])
+    pairs = ((x, y) for x, y in PLANES if x in units and y in units and units[x] == units[y])
     return next(pairs, None)
 
 

@@ -10,6 +10,17 @@ INK: Final = "#1f2933"
 SOFT: Final = "#7b8794"
 GRID: Final = "#eceff2"
 COLOURS: Final = ("#1f6fb4", "#d9772b", "#2f9163", "#8a5bb0", "#c2455a", "#2a9d9d", "#8c6d46", "#5b6b7b")
+ALARM: Final = "#b4232a"
+MARK_STYLES: Final = {
+    "error": ("x", "✖", ALARM),
+    "program failed": ("square", "■", ALARM),
+    "fault": ("diamond", "◆", ALARM),
+    "refused": ("triangle-down", "▼", "#c77700"),
+    "warning": ("triangle-up", "▲", "#e8a93a"),
+    "aborted": ("circle-open", "○", SOFT),
+}
+"""Symbol of plotly, the same as a letter, and colour of each kind of mark."""
+
 STATE_COLOURS: Final = {
     1: "#d5dae0",
     2: "#eef1f4",

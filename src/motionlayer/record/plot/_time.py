@@ -1,6 +1,8 @@
 """Signals over time: the whole run as a strip to choose a stretch in, and below it the panels of that stretch."""
 
 from collections.abc import Iterator
+from html import escape
+from textwrap import wrap
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -8,11 +10,12 @@ import plotly.graph_objects as go
 from numpy.typing import NDArray
 
 from motionlayer.record._trace import Trace
-from motionlayer.record.plot._curves import UNITS, Curve, curves_of, drawn_axes
+from motionlayer.record.plot._curves import UNITS, Curve, curves_of, drawn_axes, unit_of
+from motionlayer.record.plot._events import Mark, error_stops, mark_rows, marks_of
 from motionlayer.record.plot._layout import layout
 from motionlayer.record.plot._reduce import Indices, reduce, steps, thin
-from motionlayer.record.plot._series import STATES, Run, axes_of, column, opening, state_runs
-from motionlayer.record.plot._style import INK, STATE_COLOURS, colours
+from motionlayer.record.plot._series import ERROR_STOP, STATES, Run, axes_of, column, opening, state_runs
+from motionlayer.record.plot._style import INK, MARK_STYLES, STATE_COLOURS, colours
 
 ALL_POINTS: Final = 160_000
 """Points of all curves together: about two megabytes of the page."""
@@ -23,6 +26,8 @@ SINGLE_TICKS: Final = 1 << 20
 STRIP_POINTS: Final = 24_000
 LIMIT_POINTS: Final = 500
 ALL_RUNS: Final = 9000
+MARK_LETTERS, MARK_LINES = 60, 4
+"""So much of the text of an event is shown at its mark, letters in a line and lines."""
 
 
 class TimeChart(NamedTuple):
@@ -33,7 +38,7 @@ class TimeChart(NamedTuple):
 
 
 def time_chart(trace: Trace) -> TimeChart | None:
-    """Return position, lag, velocity, acceleration, jerk and state over one time axis, as far as recorded."""
+    """Return what moves, what happened and the states over one time axis, as far as recorded."""
     curves = curves_of(trace)
     drawn = {curve.panel for curve in curves}
     panels = [panel for panel in UNITS if panel in drawn]
@@ -41,13 +46,15 @@ def time_chart(trace: Trace) -> TimeChart | None:
     if not panels and not stated:
         return None
     figure = go.Figure()
-    anchors = layout(figure, trace, panels, len(stated))
+    anchors = layout(figure, trace, panels, {"events": mark_rows(trace), "state": stated})
     rows, note = _rows(trace, curves)
     shown: set[str] = set()
     for curve, selected in zip(curves, rows, strict=True):
         figure.add_trace(_line(trace, curve, selected, anchors[curve.panel], shown))
     figure.add_traces([_strip(trace, curve) for curve in curves if _in_strip(curve)])
+    figure.add_traces([_marks(kind, marks, anchors["events"]) for kind, marks in marks_of(trace).items()])
     figure.add_traces(list(_bars(trace, stated, anchors.get("state", ""))))
+    figure.add_traces(list(_error_stops(trace, stated, anchors.get("state", ""))))
     return TimeChart(figure, note)
 
 
@@ -61,10 +68,14 @@ def _rows(trace: Trace, curves: list[Curve]) -> tuple[list[Indices], str]:
     rows = [steps(curve.values, LIMIT_POINTS) if curve.kind == "limit" else next(chosen) for curve in curves]
     if all(len(kept) == len(trace.time) for kept in reduced.rows):
         return rows, ""
-    note = f"Curves are drawn through as many ticks as keep them within 1/{1 / reduced.tolerance:.0f} of their range"
+    note = (
+        "To keep the page small, the curves leave out ticks that lie on the line anyway: they pass every recorded "
+        f"value within {reduced.tolerance:.2%} of their range"
+    )
     if reduced.thinned:
-        note += f"; {reduced.thinned} of {len(signals)} are too restless for that and show the extremes of short spans"
-    return rows, f"{note}. The key figures are taken over all ticks."
+        restless = f"{reduced.thinned} of {len(signals)} curves change too fast for that"
+        note += f". {restless} and show the highest and lowest value of short spans"
+    return rows, f"{note}. The table at the top is made from every tick."
 
 
 def _line(trace: Trace, curve: Curve, selected: Indices, anchor: str, shown: set[str]) -> go.Scatter:
@@ -76,7 +87,7 @@ def _line(trace: Trace, curve: Curve, selected: Indices, anchor: str, shown: set
     }[curve.kind]
     first = group not in shown
     shown.add(group)
-    unit = axes_of(trace)[curve.axis] + UNITS[curve.panel]
+    unit = unit_of(curve.panel, axes_of(trace)[curve.axis])
     label = curve.axis if curve.kind == "solid" else f"{curve.axis} {name}"
     return go.Scatter(
         x=_times(trace, selected),
@@ -137,3 +148,39 @@ def _bar(axis: str, state: int, runs: list[Run], anchor: str) -> go.Bar:
         hovertemplate=f"{axis} {STATES.get(state, str(state))}<extra></extra>",
         showlegend=False,
     )
+
+
+def _error_stops(trace: Trace, axes: list[str], anchor: str) -> Iterator[go.Scatter]:
+    """Yield a mark at the beginning of each ErrorStop: one of a single tick is too narrow to be seen as a bar."""
+    for axis in axes:
+        times = error_stops(trace, axis)
+        if times:
+            yield go.Scatter(
+                x=times,
+                y=[axis] * len(times),
+                xaxis="x2",
+                yaxis=anchor,
+                mode="markers",
+                marker={"symbol": "line-ns", "size": 18, "line": {"width": 3, "color": STATE_COLOURS[ERROR_STOP]}},
+                hoverinfo="skip",
+                showlegend=False,
+            )
+
+
+def _marks(kind: str, marks: list[Mark], anchor: str) -> go.Scatter:
+    symbol, _, colour = MARK_STYLES[kind]
+    return go.Scatter(
+        x=[mark.time for mark in marks],
+        y=[mark.row for mark in marks],
+        xaxis="x2",
+        yaxis=anchor,
+        mode="markers",
+        marker={"symbol": symbol, "size": 9, "color": colour, "line": {"width": 1.5 if "open" in symbol else 0}},
+        text=[_wrapped(f"{kind}: {mark.text}") for mark in marks],
+        showlegend=False,
+        hovertemplate="%{text}<extra></extra>",
+    )
+
+
+def _wrapped(text: str) -> str:
+    return "<br>".join(escape(line) for line in wrap(text, MARK_LETTERS, max_lines=MARK_LINES, placeholder=" …"))

@@ -1,0 +1,147 @@
+"""Monitors: what is watched on an axis, and what it finds."""
+
+import math
+from collections.abc import Mapping
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from motionlayer.command import ErrorId
+from motionlayer.nc import _monitor_kernels as bits
+from motionlayer.nc._monitor_kernels import IN_RANGE, IN_TARGET, Floats, look
+from motionlayer.store import Q, Store
+
+__all__ = ["IN_RANGE", "IN_TARGET", "MonitorConfig", "Monitors", "Seen"]
+
+OFF: Final = math.inf
+
+
+class MonitorConfig(NamedTuple):
+    """What is watched on an axis; a limit or window of None is off. Times are in seconds, u is the unit of the axis.
+
+    Attributes:
+        lag: largest position lag, u.
+        lag_time: for how long it may be larger.
+        range_window: InPositionArea: distance of the actual position from the target, u.
+        target_window: InTargetPosition: the same, for `target_time` without interruption, u.
+        target_time: see there.
+        target_timeout: how long after the setpoint has arrived this may take; None for ever.
+        software_limits: the actual position is watched too, with the largest lag as margin.
+    """
+
+    lag: float | None = None
+    lag_time: float = 0.0
+    range_window: float | None = None
+    target_window: float | None = None
+    target_time: float = 0.0
+    target_timeout: float | None = None
+    software_limits: bool = False
+
+    @property
+    def any(self) -> bool:
+        """Something is watched."""
+        watched = (self.lag, self.range_window, self.target_window)
+        return self.software_limits or any(one is not None for one in watched)
+
+
+class Seen(NamedTuple):
+    """What a monitor found in a tick.
+
+    Attributes:
+        column: the axis.
+        error: what it means; None if the actual position came to the target that was waited for.
+        text: values and limits, without the unit.
+    """
+
+    column: int
+    error: ErrorId | None
+    text: str = ""
+
+    @property
+    def of_target(self) -> bool:
+        """It concerns the arrival that is waited for, and nobody else."""
+        return self.error is ErrorId.TARGET_TIMEOUT
+
+
+ERRORS: Final[tuple[tuple[int, ErrorId, str, int], ...]] = (
+    (bits.LAG_ERROR, ErrorId.LAG, "lag = {value}, allowed: {window}", Q.LAG),
+    (bits.BELOW, ErrorId.MINIMUM_PASSED, "actual position = {value}, limit {low}", Q.ACTUAL_P),
+    (bits.ABOVE, ErrorId.MAXIMUM_PASSED, "actual position = {value}, limit {high}", Q.ACTUAL_P),
+    (bits.ALARM, ErrorId.TARGET_TIMEOUT, "actual position = {value}, target {target}", Q.ACTUAL_P),
+)
+"""Bits that are errors, the gravest first: id, how the message goes on, and the row its value comes from."""
+
+
+class Monitors:
+    """The monitors of all axes that have some.
+
+    Args:
+        store: where the values are.
+        configs: per column.
+    """
+
+    def __init__(self, store: Store, configs: Mapping[int, MonitorConfig]) -> None:
+        self._store = store
+        self._configs = configs
+        self._columns = np.array(list(configs), dtype=np.int64)
+        self._index = {column: k for k, column in enumerate(configs)}
+        rows = [_parameters(config, store.dt) for config in configs.values()]
+        self._parameters: Floats = np.ascontiguousarray(np.array(rows).reshape(-1, bits.PARAMETERS).T)
+        self._states: Floats = np.zeros((bits.STATES, len(configs)))
+        self._states[bits.WAITING] = -1.0
+        self._done = np.array([_done(config) for config in configs.values()], dtype=np.int64)
+        self._events = np.zeros((len(configs), 2), dtype=np.int64)
+        store.table[Q.TARGET, self._columns] = math.nan
+
+    def look(self) -> list[Seen]:
+        """Return what happened in this tick, one thing per axis."""
+        count = look(self._store.table, self._columns, self._parameters, self._states, self._done, self._events)
+        return [self._seen(int(self._columns[k]), found) for k, found in self._events[:count].tolist()]
+
+    def _seen(self, column: int, found: int) -> Seen:
+        table = self._store.table
+        for bit, error, text, row in ERRORS:
+            if found & bit:
+                low, high, target = table[[Q.MIN_P, Q.MAX_P, Q.TARGET], column].tolist()
+                window = self._configs[column].lag
+                value = float(table[row, column])
+                return Seen(column, error, text.format(value=value, window=window, low=low, high=high, target=target))
+        return Seen(column, None)
+
+    def waits(self, column: int) -> bool:
+        """Tell whether a positioning is done only when the actual position has arrived; from now on look for that."""
+        k = self._index.get(column)
+        if k is None or not self._done[k]:
+            return False
+        self._states[bits.WAITING, k] = 0.0
+        return True
+
+    def flag(self, column: int, flag: int) -> bool:
+        """Return a flag of the last look; False where it is not watched."""
+        k = self._index.get(column)
+        return k is not None and bool(int(self._states[bits.FLAGS, k]) & flag)
+
+
+def _done(config: MonitorConfig) -> int:
+    """Return the flag that a positioning waits for, 0 for none (function-blocks 2.7)."""
+    if config.target_window is not None:
+        return bits.IN_TARGET
+    return bits.IN_RANGE if config.range_window is not None else 0
+
+
+def _parameters(config: MonitorConfig, dt: float) -> list[float]:
+    """Return the parameters of one axis in the order of their rows."""
+
+    def ticks(seconds: float | None) -> float:
+        return OFF if seconds is None else float(math.ceil(seconds / dt - 1e-6))
+
+    margin = (config.lag or 0.0) if config.software_limits else OFF
+    return [
+        OFF if config.lag is None else config.lag,
+        ticks(config.lag_time),
+        -1.0 if config.range_window is None else config.range_window,
+        -1.0 if config.target_window is None else config.target_window,
+        ticks(config.target_time),
+        ticks(config.target_timeout),
+        margin,
+    ]

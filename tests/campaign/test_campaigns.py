@@ -1,0 +1,140 @@
+"""The short form of every campaign, and that each of them would notice."""
+
+from typing import Any
+
+import pytest
+
+from motionlayer import Command, Machine, Simulation
+from motionlayer._kernel import MODE
+from motionlayer.bench.campaign import CAMPAIGNS, _life, _mutation, _planning, repeat
+from motionlayer.bench.campaign._acts import CALLS, Act, call
+from motionlayer.bench.campaign._life import life, live, violations
+from motionlayer.bench.campaign._mutation import BATCH, Mutation, missed, mutation
+from motionlayer.bench.campaign._problems import BLOCK, FAMILIES, KINDS, Problem, problems
+from motionlayer.event import Kind
+from motionlayer.nc import Axis
+from motionlayer.profile import Profile
+from motionlayer.record import Trace
+
+SEED = 1
+SLOW = MODE == "plain"
+SHORT = {
+    "planning": BLOCK // 20 if SLOW else 4 * BLOCK,
+    "life": 2 if SLOW else 40,
+    "mutation": 5 if SLOW else 4 * BATCH,
+}
+
+
+@pytest.mark.parametrize("name", list(CAMPAIGNS))
+def test_the_short_form_finds_nothing(name: str) -> None:
+    campaign = CAMPAIGNS[name]
+    for start in range(0, SHORT[name], campaign.batch):
+        assert campaign.run(SEED, range(start, min(start + campaign.batch, SHORT[name]))) == []
+
+
+@pytest.mark.parametrize(("name", "case"), [("planning", 1234), ("life", 5), ("mutation", 57)])
+def test_a_case_is_made_from_seed_and_number_alone(name: str, case: int) -> None:
+    campaign = CAMPAIGNS[name]
+    text = campaign.describe(SEED, case)
+    campaign.describe(SEED, case + 1)
+    assert campaign.describe(SEED, case) == text
+    assert campaign.describe(SEED + 1, case) != text
+    assert campaign.describe(SEED, case + 1) != text
+
+
+def test_planning_draws_every_family_and_kind() -> None:
+    block = problems(SEED, 0)
+    assert len(block) == BLOCK
+    assert {problem.kind for problem in block} == set(KINDS)
+    integers = [problem for problem in block if all(value == int(value) for value in problem.limits)]
+    assert len(integers) == BLOCK // len(FAMILIES)
+    assert any(abs(problem.v) > problem.limits.velocity for problem in block)
+    assert max(problem.limits.jerk for problem in block[:: len(FAMILIES)]) <= 1e9
+
+
+def test_a_planning_failure_can_be_pasted(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(_problem: Problem) -> Profile:
+        raise ArithmeticError("out of order")
+
+    monkeypatch.setattr(Problem, "plan", fails)
+    (failure,) = repeat(CAMPAIGNS["planning"], SEED, 3)
+    assert failure.case == 3
+    assert "out of order" in failure.text
+    call = failure.text.splitlines()[-1]
+    assert call == _planning.describe(SEED, 3)
+    assert call.startswith("plan_")
+
+
+def test_a_life_that_breaks_a_rule_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A jump of the set position that nobody planned."""
+    plain = Axis.set_override
+
+    def jumps(axis: Axis, factor: float) -> None:
+        axis._table[0, axis._column] += 1.0
+        plain(axis, factor)
+
+    monkeypatch.setattr(Axis, "set_override", jumps)
+    found = [failure for case in range(6) for failure in repeat(CAMPAIGNS["life"], SEED, case)]
+    assert found
+
+
+def test_an_exception_inside_is_a_failure_of_its_case(monkeypatch: pytest.MonkeyPatch) -> None:
+    def breaks(*_: object) -> None:
+        raise ZeroDivisionError("inside")
+
+    monkeypatch.setattr(_life, "verify", breaks)
+    (failure,) = repeat(CAMPAIGNS["life"], SEED, 4)
+    assert failure.case == 4
+    assert failure.text.splitlines()[-1] == "ZeroDivisionError: inside"
+
+
+def test_a_command_that_says_what_its_events_do_not_is_found() -> None:
+    trace, commands = live(life(SEED, 0))
+    assert violations(trace, commands) == []
+    done = next(command for command in commands if command.done)
+    done.done = False
+    assert any(f"command {done.number} " in fault for fault in violations(trace, commands))
+
+
+def test_lives_hold_every_kind_of_end() -> None:
+    kinds: set[Kind] = set()
+    moved = 0
+    for case in range(12):
+        trace, _ = live(life(SEED, case))
+        kinds |= {event.kind for event in trace.events}
+        moved += sum(bool((trace[name] != 0.0).any()) for name in trace if name.endswith("set_velocity"))
+    assert kinds == set(Kind)
+    assert moved >= 12
+
+
+def test_every_call_is_known() -> None:
+    run = Simulation(Machine.from_dict(life(SEED, 0).machine), trace=None)
+    axis = next(iter(run.axes.values()))
+    for name in CALLS.keys() - {"sweep"}:
+        given: Command[Any] | None = call(axis, Act(1, axis.name, name, 0.5, (1.0, 1.0, 1.0, 1.0), False), (0.0, 1.0))
+        assert (given is None) == (name in {"override", "fault"})
+
+
+def test_mutations_are_at_least_ten_tolerances() -> None:
+    trace, _ = live(life(SEED, 0))
+    drawn = [mutation(SEED, case, trace) for case in range(200)]
+    assert min(abs(change.factor) for change in drawn) > 10.0
+    assert {len(trace.ticks) - 1, 0} <= {change.row for change in drawn}
+
+
+def test_a_change_that_is_not_found_is_a_failure() -> None:
+    trace, _ = live(life(SEED, 0))
+    (fault,) = missed(trace, Mutation("A0.set_position", 7, 0.1))
+    assert fault.startswith("not found: Mutation(signal='A0.set_position', row=7, factor=0.1)")
+
+
+def test_a_trace_that_is_not_valid_before_is_a_failure(monkeypatch: pytest.MonkeyPatch) -> None:
+    def spoilt(case: _life.Life) -> tuple[Trace, list[Command[Any]]]:
+        trace, commands = live(case)
+        values = trace["A0.set_position"].copy()
+        values[5] += 1.0
+        return trace.replace({"A0.set_position": values}), commands
+
+    monkeypatch.setattr(_mutation, "live", spoilt)
+    (failure,) = repeat(CAMPAIGNS["mutation"], SEED, 3)
+    assert "the trace itself (NAME=life CASE=0) is not valid" in failure.text

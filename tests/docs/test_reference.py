@@ -1,0 +1,81 @@
+"""Reference pages: the generated ones are what the code says, names in the written one exist."""
+
+import builtins
+import importlib.util
+import inspect
+import pkgutil
+import re
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+import motionlayer.machine
+import motionlayer.record
+import motionlayer.runtime
+from motionlayer import Machine, Simulation
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+
+
+def generator() -> ModuleType:
+    spec = importlib.util.spec_from_file_location("reference", ROOT / "scripts" / "reference.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize("name", ["states.md", "errors.md", "machine-keys.md", "cli.md"])
+def test_a_generated_page_is_what_the_code_says(name: str) -> None:
+    assert (ROOT / "docs" / name).read_text() == generator().pages()[name], "run scripts/reference.py"
+
+
+def sections() -> dict[str, list[str]]:
+    """Return the names in the first column of the tables of reference.md, by heading."""
+    text = (ROOT / "docs" / "reference.md").read_text()
+    parts = re.split(r"^## (.*)$", text, flags=re.MULTILINE)[1:]
+    found = {}
+    for title, body in zip(parts[::2], parts[1::2], strict=True):
+        cells = [line.split("|")[1] for line in body.splitlines() if line.startswith("|")]
+        found[title] = [name for cell in cells for name in re.findall(r"`(?:\w+\.)?(\w+)", cell)]
+    return found
+
+
+@pytest.fixture(scope="module")
+def known() -> dict[str, set[str]]:
+    """Return the names that there are, by heading."""
+    limits = {"max_velocity": 1000.0, "max_acceleration": 8000.0, "max_jerk": 1e5}
+    with Simulation(Machine.from_dict({"format": 1, "name": "m", "axis": {"X": limits}})) as run:
+
+        async def nothing() -> None:
+            pass
+
+        axis, program = run.axes["X"], run.start(nothing())
+        command = axis.enable()
+        run.run()
+    trace = run.trace
+    packages = (motionlayer, motionlayer.machine, motionlayer.record, motionlayer.runtime, builtins)
+    return {
+        "Axis": set(dir(axis)),
+        "Command": {*dir(command), *dir(program)},
+        "Simulation": {*dir(run), *inspect.signature(Simulation).parameters},
+        "Trace": {*dir(trace), *(name.partition(".")[2] for name in trace)},
+        "Exceptions": {name for package in packages for name in dir(package)},
+    }
+
+
+@pytest.mark.parametrize("title", ["Axis", "Command", "Simulation", "Trace", "Exceptions"])
+def test_every_name_in_the_reference_exists(title: str, known: dict[str, set[str]]) -> None:
+    names = sections()[title]
+    assert len(names) > 7
+    assert set(names) - known[title] == set()
+
+
+def test_every_place_in_the_code_that_move_names_exists() -> None:
+    parts = "|".join(path.name for path in Path(motionlayer.__file__).parent.iterdir() if path.is_dir())
+    names = re.findall(rf"`((?:{parts})(?:\.\w+)+)`", (ROOT / "docs" / "move.md").read_text())
+    assert len(names) > 7
+    for name in names:
+        pkgutil.resolve_name(f"motionlayer.{name}")
