@@ -110,3 +110,14 @@ def test_two_programs_in_one_tick_follow_the_order_of_start() -> None:
     assert [command.aborted for command in commands] == [True, True, False]
     finish(run, commands[-1])
     assert x.set_position == 50.0
+
+
+def test_a_brake_is_no_weaker_than_what_really_moved_the_axis() -> None:
+    """A weaker move of the same tick has not moved it: its limits do not count."""
+    run, x = ready()
+    x.move_absolute(290.0)
+    run.step(200)
+    x.move_absolute(295.0, deceleration=500.0)
+    x.halt()
+    assert x._job is not None
+    assert x._job.limits.deceleration == x.config.default.deceleration

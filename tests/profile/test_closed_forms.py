@@ -164,3 +164,10 @@ def test_reversal_passes_zero_with_the_smaller_limit() -> None:
         _, _, v, a = curve(profile.pieces)
         assert float(a[abs(v).argmin()]) == pytest.approx(500.0, rel=1e-12)
         assert float(a.max()) == pytest.approx(1000.0, rel=1e-12)
+
+
+def test_a_first_piece_that_only_rounding_made_is_left_out() -> None:
+    limits = Limits(22.291621343717154, 17.054604508398878, 148.51868074868673, 2958.380730005665)
+    profile = plan_position(1.6938004319649875, -0.31991277055431194, 61.63892333329399, 4.032573168580419, limits)
+    assert profile.pieces[1, 0] > 1e-6
+    assert profile.pieces[0, 1:4].tolist() == [1.6938004319649875, -0.31991277055431194, 61.63892333329399]

@@ -246,7 +246,7 @@ class Axis(AxisCore):
         asked = self._dynamics(command, (None, None, deceleration, jerk))
         if asked is None:
             return command
-        running = self._job.limits if self._job is not None else self.config.default
+        running = self._running()
         limits = running._replace(
             deceleration=max(running.deceleration, asked.deceleration if deceleration is not None else 0.0),
             jerk=max(running.jerk, asked.jerk if jerk is not None else 0.0),

@@ -17,6 +17,7 @@ class AxisPlanning(AxisBase):
     def __init__(self, config: AxisConfig, column: int, store: Store, ledger: Ledger, events: EventLog) -> None:
         super().__init__(config, column, store, ledger, events)
         self._job: Job | None = None
+        self._ran: Limits | None = None
 
     def _planned(self, job: Job) -> Profile:
         """Plan a job from the present setpoint, with the override.
@@ -43,9 +44,11 @@ class AxisPlanning(AxisBase):
 
     def _adopt(self, job: Job, profile: Profile) -> None:
         """Hand a profile to the store, put its limits in force, and leave there what a change of override needs."""
-        self._job = job
-        self._store.adopt(self._column, profile.pieces)
         table, column = self._table, self._column
+        if table[Q.TICK, column] != self._store.tick:  # else the job was replaced without having moved
+            self._ran = self._job.limits if self._job is not None else None
+        self._job = job
+        self._store.adopt(column, profile.pieces)
         table[Q.MAX_V : Q.MAX_J + 1, column] = self._scaled(job)
         table[Q.OVERRIDE, column] = self.override
         kind, target = JOB_OTHER, 0.0
@@ -57,6 +60,15 @@ class AxisPlanning(AxisBase):
         table[Q.TARGET, column] = job.target if job.kind is JobKind.POSITION else end[1] if end[2] == 0.0 else math.nan
         command = job.command.number if job.command is not None else 0
         table[Q.JOB_KIND : Q.COMMAND + 1, column] = (kind, target, job.limits.velocity, command)
+
+    def _running(self) -> Limits:
+        """Return the dynamics that a brake must not fall short of: those of the job that moves the axis."""
+        if self._job is None:
+            return self.config.default
+        limits = self._job.limits
+        if self._ran is None or self._table[Q.TICK, self._column] != self._store.tick:
+            return limits
+        return Limits(*(max(pair) for pair in zip(limits, self._ran, strict=True)))
 
     def _limit_ahead(self, job: Job) -> float:
         """Return the software limit that an endless motion goes towards."""

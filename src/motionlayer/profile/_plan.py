@@ -52,6 +52,24 @@ _scratch: Final = np.zeros((MAX_PIECES, 5))
 
 
 @kernel
+def without_sliver(out: Floats, count: int) -> int:
+    """Leave out a first piece whose jerk changes neither acceleration nor velocity by more than rounding does.
+
+    Rounding makes such pieces at time 0, where the clock resolves what it cannot resolve later.
+    """
+    while count > 2 and out[0, 4] != 0.0:
+        duration, v, a = out[1, 0], out[0, 2], out[0, 3]
+        if abs(duration * out[0, 4]) > 1e-14 * abs(a) or abs(duration * a) > 1e-14 * abs(v):
+            break
+        count -= 1
+        for k in range(count):
+            for field in range(5):
+                out[k, field] = out[k + 1, field]
+        out[0, 0] = 0.0
+    return count
+
+
+@kernel
 def plan(
     out: Floats, scratch: Floats, p: float, v: float, a: float, target: float, to_position: bool,
     vel: float, acc: float, dec: float, jerk: float,
@@ -72,6 +90,7 @@ def plan(
         count = to_velocity(out, target, acc, dec, jerk)
         if target == 0.0 and count > 1:  # the same end as `stop_position`, bit for bit
             out[count - 1, 1] = stop_displacement(v, a, dec, jerk)
+    count = without_sliver(out, count)
     for k in range(count):
         out[k, 1] += p
     if to_position:

@@ -135,8 +135,8 @@ def software_limits(axis: Axis) -> list[Finding]:
         beyond = sign * (position - limit)
         before = np.concatenate([[0.0], beyond[:-1]])
         was_outside = before > np.concatenate([[0.0], widening[:-1]])
-        held = was_outside & ((beyond <= before + widening) | braking)
-        bad = ~(beyond <= widening) & ~free & ~held
+        held = was_outside & (beyond <= before + widening)
+        bad = ~(beyond <= widening) & ~free & ~held & ~braking  # braking is never refused
         text = f"set position beyond the software limit {side}"
         found += axis.findings(
             "software limit",

@@ -135,7 +135,11 @@ def _succession(axis: Axis, state: Integers, moving: Flags, lives: Mapping[int, 
     first = SUCCESSIONS[State.DISABLED, state[0]] if axis.ticks[0] == 0 else LEGAL
     verdict = np.concatenate([[first], SUCCESSIONS[state[:-1], state[1:]]])
     changed = np.concatenate([[False], np.diff(state) != 0])
-    uncalled = changed & (state != State.ERRORSTOP) & ~_open(axis, lives, 1)
+    # A drive that was enabled once comes back by itself when its fault is over.
+    before = np.concatenate([state[:1], state[:-1]])
+    called = min((life.accepted for life in lives.values() if life.source == axis.name), default=np.inf)
+    back = (state == State.STANDSTILL) & (before == State.DISABLED) & (axis.ticks > called)
+    uncalled = changed & (state != State.ERRORSTOP) & ~back & ~_open(axis, lives, 1)
     idle = np.isin(state, COMMANDED) & ~_open(axis, lives, 0)
     wrong = (verdict == ILLEGAL) | ((verdict == LEGAL_AT_REST) & moving)
     found = _named(axis, "state order", wrong, state, "state (value) cannot follow the one before it (limit)")
