@@ -140,7 +140,10 @@ def test_a_trace_that_is_not_valid_before_is_a_failure(monkeypatch: pytest.Monke
     assert "the trace itself (NAME=life CASE=0) is not valid" in failure.text
 
 
-@pytest.mark.parametrize("case", [54, 997, 1246, 1861, 2106, 3545, 3686, 5218])
-def test_lives_that_broke_a_rule_once(case: int) -> None:
-    """Seed 1: a stop in homing past a limit, a halt of a turning move, a sliver of a piece, drives that come back."""
-    assert repeat(CAMPAIGNS["life"], 1, case) == []
+ONCE = [(1, case) for case in (54, 997, 1246, 1861, 2106, 3545, 3686, 5218)] + [(2, 3349), (2, 5696)]
+
+
+@pytest.mark.parametrize(("seed", "case"), ONCE)
+def test_lives_that_broke_a_rule_once(seed: int, case: int) -> None:
+    """A stop in homing past a limit, a halt of a turning move, a sliver of a piece, drives that come back, a swing, an early reset."""
+    assert repeat(CAMPAIGNS["life"], seed, case) == []

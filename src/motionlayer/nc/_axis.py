@@ -38,6 +38,9 @@ class Axis(AxisCore):
         if self._next(AxisEvent.RESET if self.enabled else AxisEvent.RESET_OFF, command) is None:
             return command
         self._accept(command, "reset()")
+        if self._state is not AxisState.ERRORSTOP:  # an error that comes later is not what was to be cleared
+            self._end(command)
+            return command
         if self._reset is not None:
             self._end(self._reset, by=command)
         self._reset = command

@@ -127,6 +127,7 @@ def software_limits(axis: Axis) -> list[Finding]:
     exempt = np.isin(state, MAY_BE_OUTSIDE)
     free = exempt | np.concatenate([exempt[:1], exempt[:-1]]) | axis.redefined | (axis.ticks == axis.ticks[0])
     braking = axis.curves.kind[axis.serving] == "stop"
+    began = axis.curves.pieces[axis.curves.first[:-1], 1][axis.serving]
     widening = sample_tolerance(axis, "set_position")
     for side, sign in (("min", -1.0), ("max", 1.0)):
         limit = axis.software_limit(side)
@@ -135,7 +136,8 @@ def software_limits(axis: Axis) -> list[Finding]:
         beyond = sign * (position - limit)
         before = np.concatenate([[0.0], beyond[:-1]])
         was_outside = before > np.concatenate([[0.0], widening[:-1]])
-        held = was_outside & (beyond <= before + widening)
+        # From outside the way back may swing: not farther out than where it began.
+        held = was_outside & (beyond <= np.maximum(before, sign * (began - limit)) + widening)
         bad = ~(beyond <= widening) & ~free & ~held & ~braking  # braking is never refused
         text = f"set position beyond the software limit {side}"
         found += axis.findings(
