@@ -145,5 +145,9 @@ ONCE = [(1, case) for case in (54, 997, 1246, 1861, 2106, 3545, 3686, 5218)] + [
 
 @pytest.mark.parametrize(("seed", "case"), ONCE)
 def test_lives_that_broke_a_rule_once(seed: int, case: int) -> None:
-    """A stop in homing past a limit, a halt of a turning move, a sliver of a piece, drives that come back, a swing, an early reset."""
+    """Each with its story.
+
+    A stop in homing past a limit, a halt of a turning move, a sliver of a piece, drives that come back by
+    themselves, a swing on the way back from outside, a reset before the error.
+    """
     assert repeat(CAMPAIGNS["life"], seed, case) == []
