@@ -1,6 +1,5 @@
 """The rows of the group `numerics`, with next to no repetitions, and the optima that they are held against."""
 
-import importlib.util
 import math
 import sys
 from pathlib import Path
@@ -15,7 +14,6 @@ from motionlayer.bench.campaign import CAMPAIGNS, Failure
 
 TINY = Effort(samples=3, runs=1, peers=Environment(Path(sys.executable)))
 ROWS = {row.name: row for row in GROUPS["numerics"]}
-SCIPY = importlib.util.find_spec("scipy") is not None
 
 
 def test_the_numerics_group_has_these_rows() -> None:
@@ -63,7 +61,6 @@ def test_without_scipy_there_is_no_value(tmp_path: Path) -> None:
         numerics.asymmetric(TINY._replace(peers=Environment(tmp_path / "python")))
 
 
-@pytest.mark.skipif(not SCIPY, reason="scipy is not installed here")
 def test_the_linear_program_agrees_with_the_closed_form_and_the_plans() -> None:
     cases = asymmetric_cases(6)
     optima = TINY.peers.run(numerics.OPTIMUM, {"cases": [case._asdict() for case in cases], "steps": 90})

@@ -140,7 +140,7 @@ def test_a_trace_that_is_not_valid_before_is_a_failure(monkeypatch: pytest.Monke
     assert "the trace itself (NAME=life CASE=0) is not valid" in failure.text
 
 
-ONCE = [(1, case) for case in (54, 997, 1246, 1861, 2106, 3545, 3686, 5218)] + [(2, 3349), (2, 5696)]
+ONCE = [(1, case) for case in (54, 997, 1246, 1861, 2106, 3545, 3686, 5218)] + [(2, 3349), (2, 5696), (3, 9473)]
 
 
 @pytest.mark.parametrize(("seed", "case"), ONCE)

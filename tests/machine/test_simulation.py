@@ -30,7 +30,8 @@ def test_a_simulation_that_is_never_run_closes_its_programs() -> None:
         raise AssertionError
 
     with Simulation(machine(), trace=False) as run:
-        run.start(program())
+        started = run.start(program())
+    assert started.aborted  # and no warning of a coroutine that was never awaited
 
 
 @pytest.mark.parametrize("kind", [np.float32, np.float64, np.int64, int])

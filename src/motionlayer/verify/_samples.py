@@ -136,8 +136,8 @@ def software_limits(axis: Axis) -> list[Finding]:
         beyond = sign * (position - limit)
         before = np.concatenate([[0.0], beyond[:-1]])
         was_outside = before > np.concatenate([[0.0], widening[:-1]])
-        # From outside the way back may swing: not farther out than where it began.
-        held = was_outside & (beyond <= np.maximum(before, sign * (began - limit)) + widening)
+        # From outside the way back may swing, in and out again: not farther out than where it began.
+        held = beyond <= np.maximum(np.where(was_outside, before, 0.0), sign * (began - limit)) + widening
         bad = ~(beyond <= widening) & ~free & ~held & ~braking  # braking is never refused
         text = f"set position beyond the software limit {side}"
         found += axis.findings(
