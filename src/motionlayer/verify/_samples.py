@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 
 from motionlayer.verify._axis import LIMITS, Axis
-from motionlayer.verify._curves import Floats
+from motionlayer.verify._curves import Flags, Floats
 from motionlayer.verify._report import Finding
 from motionlayer.verify._states import MAY_BE_OUTSIDE
 from motionlayer.verify._tolerance import TOLERANCES, differs, quantisation, sample_tolerance
@@ -115,6 +115,16 @@ def sampled_limits(axis: Axis) -> list[Finding]:
     return found
 
 
+def _no_weaker_brake(axis: Axis) -> Flags:
+    """Tell for each plan whether it is a stop that brakes no weaker than the plan before it allowed."""
+    curves = axis.curves
+    weaker = np.zeros(len(curves), np.bool_)
+    for limit in (curves.deceleration, curves.jerk):
+        weaker[1:] |= limit[1:] < limit[:-1] * (1.0 - TOLERANCES["limits"].relative)
+    weaker[1:] &= curves.kind[:-1] != "set"
+    return np.asarray((curves.kind == "stop") & ~weaker)
+
+
 def software_limits(axis: Axis) -> list[Finding]:
     """The set position is inside the software limits.
 
@@ -126,7 +136,7 @@ def software_limits(axis: Axis) -> list[Finding]:
     # The position of a row is the work of the state one row before.
     exempt = np.isin(state, MAY_BE_OUTSIDE)
     free = exempt | np.concatenate([exempt[:1], exempt[:-1]]) | axis.redefined | (axis.ticks == axis.ticks[0])
-    braking = axis.curves.kind[axis.serving] == "stop"
+    braking = _no_weaker_brake(axis)[axis.serving]
     began = axis.curves.pieces[axis.curves.first[:-1], 1][axis.serving]
     widening = sample_tolerance(axis, "set_position")
     for side, sign in (("min", -1.0), ("max", 1.0)):
