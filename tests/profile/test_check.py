@@ -8,7 +8,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from motionlayer.profile import Limits, plan_position, plan_velocity
+from motionlayer.profile import TOLERANCES, Limits, plan_position, plan_velocity
 from motionlayer.profile._check import (
     ACCELERATION_LIMIT,
     END_STATE,
@@ -152,16 +152,30 @@ def test_every_fault_has_its_text() -> None:
     assert all(fault < 0 for fault in REASONS)
 
 
+def changed(problem: Problem, row: int, field: int, sign: float) -> NDArray[np.float64]:
+    """Return a plan in which one value is off by what a person would see, and by what its clock resolves."""
+    pieces = problem.position().pieces
+    p, _, _, target, limits = problem
+    most = max(limits.acceleration, limits.deceleration)
+    low, high = float(pieces[:, 1].min()), float(pieces[:, 1].max())
+    unit = (abs(p) + abs(target - p) + high - low, limits.velocity, limits.acceleration + most)[field - 1]
+    per_second = (limits.velocity, most, limits.jerk)[field - 1]
+    pieces[row, field] += sign * (1e-5 * max(unit, 1e-300) + 4.0 * TOLERANCES.clock * pieces[-1, 0] * per_second)
+    return pieces
+
+
 @some(150)
 @given(inside(), st.data())
 def test_any_visible_change_is_refused(problem: Problem, data: st.DataObject) -> None:
-    pieces = problem.position().pieces
-    assume(len(pieces) > 2)
-    row = data.draw(st.integers(1, len(pieces) - 1))
-    field = data.draw(st.integers(1, 3))
-    limits = problem.limits
-    unit = (abs(problem.p) + abs(problem.target - problem.p), limits.velocity, limits.acceleration)[field - 1]
-    _, low, high = pieces[:, 1].min(), float(pieces[:, 1].min()), float(pieces[:, 1].max())
-    unit += (high - low) if field == 1 else max(limits.deceleration, unit) if field == 3 else 0.0
-    pieces[row, field] += data.draw(st.sampled_from([-1.0, 1.0])) * 1e-6 * max(unit, 1e-300) * 10.0
-    assert check(pieces, len(pieces), problem.target, True, *limits) != FINE
+    count = len(problem.position().pieces)
+    assume(count > 2)
+    row, field = data.draw(st.integers(1, count - 1)), data.draw(st.integers(1, 3))
+    pieces = changed(problem, row, field, data.draw(st.sampled_from([-1.0, 1.0])))
+    assert check(pieces, len(pieces), problem.target, True, *problem.limits) != FINE
+
+
+def test_a_change_below_the_clock_is_none() -> None:
+    # Found by the test above: positions of 1e-18 within 1e-6 s, at a velocity limit of 1, are finer than the clock.
+    problem = Problem(0.0, 0.0, 1e-6, 0.0, Limits(1.0, 1.0, 1.0, 1.0))
+    pieces = changed(problem, 1, 1, -1.0)
+    assert check(pieces, len(pieces), problem.target, True, *problem.limits) != FINE

@@ -20,8 +20,8 @@ from motionlayer.record.plot._time import MARK_LETTERS, MARK_LINES, _wrapped, ti
 from .samples import gantry, header
 
 EVENTS = [
-    Event(0, Level.DEBUG, Kind.ACCEPTED, "X", "X.move", 0, 1),
-    Event(1, Level.DEBUG, Kind.ABORTED, "X", "X.move by X.stop", 0, 1),
+    Event(0, Level.VERBOSE, Kind.ACCEPTED, "X", "X.move", 0, 1),
+    Event(1, Level.VERBOSE, Kind.ABORTED, "X", "X.move by X.stop", 0, 1),
     Event(1, Level.WARNING, Kind.REFUSED, "Y", "Y.move: <i>outside</i>", 0x4222, 2),
     Event(2, Level.ERROR, Kind.ERROR, "X", "lag too large", 0x4550, 3),
     Event(2, Level.ERROR, Kind.MESSAGE, "X", "drive fault"),

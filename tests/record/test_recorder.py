@@ -107,6 +107,8 @@ def test_the_hash_counts_ticks_even_without_coordinates() -> None:
         Event(0, Level.WARNING, Kind.ACCEPTED, "X", "other", 1, 1),
         Event(0, Level.WARNING, Kind.ACCEPTED, "X", "text", 2, 1),
         Event(0, Level.WARNING, Kind.ACCEPTED, "X", "text", 1, 2),
+        Event(0, Level.WARNING, Kind.ACCEPTED, "X", "text", 1, 1, 1),
+        Event(0, Level.WARNING, Kind.ACCEPTED, "X", "text", 1, 1, 0, 1),
     ],
 )
 def test_the_hash_notices_every_field_of_an_event(other: Event) -> None:

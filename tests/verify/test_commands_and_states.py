@@ -1,7 +1,5 @@
 """Life of commands and order of states: what does not fit is noticed."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
@@ -42,7 +40,7 @@ def test_an_event_of_another_kind_is_found(index: int, kind: Kind) -> None:
     ends = {Kind.DONE, Kind.ABORTED, Kind.ERROR}
     if kind == event.kind or event.command == 1 or (event.kind in ends and kind in ends - {Kind.DONE}):
         return  # nothing but the event tells an abortion from an error
-    events = (*trace.events[:index], replace(event, kind=kind), *trace.events[index + 1 :])
+    events = (*trace.events[:index], event._replace(kind=kind), *trace.events[index + 1 :])
     assert _rules(changed(trace, events=events))
 
 
@@ -51,7 +49,7 @@ def test_a_refused_command_has_no_other_event() -> None:
     refused = Event(50, Level.WARNING, Kind.REFUSED, "X", "", 0x4222, 77)
     events = sorted([*trace.events, refused], key=lambda event: event.tick)
     assert_valid(changed(trace, events=events))
-    events = sorted([*trace.events, refused, replace(refused, kind=Kind.DONE)], key=lambda event: event.tick)
+    events = sorted([*trace.events, refused, refused._replace(kind=Kind.DONE)], key=lambda event: event.tick)
     assert _rules(changed(trace, events=events)) == {"command life"}
 
 
@@ -64,7 +62,7 @@ def test_events_out_of_order_are_found() -> None:
 def test_done_beside_the_target_is_found() -> None:
     trace = recorded("mm")
     index = next(i for i, e in enumerate(trace.events) if e.kind == Kind.DONE and e.command == 2)
-    early = replace(trace.events[index], tick=trace.events[index].tick - 1)
+    early = trace.events[index]._replace(tick=trace.events[index].tick - 1)
     assert "done" in _rules(changed(trace, events=(*trace.events[:index], early, *trace.events[index + 1 :])))
 
 

@@ -31,6 +31,6 @@ class Tally:
         if is_program:
             if event.kind in _ENDS:
                 self.ends[name, _ENDS[event.kind]] += 1
-        elif event.level >= Level.WARNING:
+        elif event.level <= Level.WARNING:
             self.levels[event.level] += 1
             self.last.append(event)

@@ -3,16 +3,18 @@
 import enum
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 
 class Level(enum.IntEnum):
-    """How much a person should care."""
+    """`E_MessageType`: how much a person should care; the smaller, the graver (motion-layer 2.5)."""
 
-    DEBUG = 0
-    INFO = 1
-    WARNING = 2
-    ERROR = 3
+    BATCH = 1
+    ERROR = 2
+    WARNING = 3
+    INFO = 4
+    VERBOSE = 5
+    SENTIENT = 6
 
 
 class Kind(enum.StrEnum):
@@ -26,8 +28,7 @@ class Kind(enum.StrEnum):
     ERROR = "error"
 
 
-@dataclass(frozen=True, slots=True)
-class Event:
+class Event(NamedTuple):
     """One record.
 
     Attributes:
@@ -38,6 +39,8 @@ class Event:
         text: one line for a person.
         code: error id (`motionlayer.command.errors`), 0 without.
         command: number of the command within the run, 0 without.
+        device: `e_Device` plus the id of the object, for the line of a message file.
+        subdevice: `e_Subdevice`.
     """
 
     tick: int
@@ -47,6 +50,8 @@ class Event:
     text: str
     code: int = 0
     command: int = 0
+    device: int = 0
+    subdevice: int = 0
 
 
 class EventLog:
@@ -66,6 +71,6 @@ class EventLog:
         for listener in self._listeners:
             listener(event)
 
-    def last(self, level: Level = Level.DEBUG) -> list[Event]:
-        """Return what the ring still holds, oldest first, from `level` upwards."""
-        return [event for event in self._ring if event.level >= level]
+    def last(self, level: Level = Level.SENTIENT) -> list[Event]:
+        """Return what the ring still holds, oldest first, as grave as `level` or graver."""
+        return [event for event in self._ring if event.level <= level]

@@ -99,7 +99,7 @@ class AxisBase:
         self._events.add(Event(self.ledger.tick, level, kind, self.name, text, code, command))
 
     def _accept(self, command: AxisCommand, text: str) -> None:
-        self._tell(Level.DEBUG, Kind.ACCEPTED, text, 0, command.number)
+        self._tell(Level.VERBOSE, Kind.ACCEPTED, text, 0, command.number)
 
     def _refuse(self, command: AxisCommand, refusal: Refusal) -> AxisCommand:
         error = MotionError(refusal.id, self.name, refusal.detail)
@@ -114,10 +114,10 @@ class AxisBase:
     def _end(self, command: AxisCommand, by: Command[None] | None = None) -> None:
         """End a command done, or aborted by another one."""
         if by is None:
-            self._tell(Level.DEBUG, Kind.DONE, command.name, 0, command.number)
+            self._tell(Level.VERBOSE, Kind.DONE, command.name, 0, command.number)
             command.finish(None)
         else:
-            self._tell(Level.DEBUG, Kind.ABORTED, f"{command.name} by {by.name}", 0, command.number)
+            self._tell(Level.VERBOSE, Kind.ABORTED, f"{command.name} by {by.name}", 0, command.number)
             command.abort(by)
 
     def __repr__(self) -> str:

@@ -152,6 +152,8 @@ def encode_event(event: Event) -> bytes:
         event.source,
         event.code,
         event.command,
+        event.device,
+        event.subdevice,
         event.text,
     )
     return json.dumps(fields).encode()
@@ -163,5 +165,5 @@ def decode_event(payload: memoryview) -> Event:
     Raises:
         ValueError: the payload is none.
     """
-    tick, level, kind, source, code, command, text = json.loads(bytes(payload))
-    return Event(tick, Level(level), Kind(kind), source, text, code, command)
+    tick, level, kind, source, code, command, device, subdevice, text = json.loads(bytes(payload))
+    return Event(tick, Level(level), Kind(kind), source, text, code, command, device, subdevice)

@@ -45,7 +45,7 @@ class Run:
         self._ledger = ledger
         self._patience = patience
         self._scheduler = Scheduler(ledger, events, on_failure)
-        self._calls = in_order([*stages, Stage(Step.PROGRAMS, "programs", self._scheduler.run)])
+        self._calls = in_order([Stage(Step.PROGRAMS, "programs", self._scheduler.run), *stages])
 
     @property
     def tick(self) -> int:

@@ -77,4 +77,4 @@ def error_stops(trace: Trace, axis: str) -> list[float]:
 
 def grave_events(trace: Trace) -> list[Event]:
     """Return the errors and warnings, in order."""
-    return [event for event in trace.events if event.level >= Level.WARNING]
+    return [event for event in trace.events if event.level <= Level.WARNING]
