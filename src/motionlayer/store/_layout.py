@@ -51,8 +51,14 @@ class Q:
     DRIVE_RESET: Final = 33
     # where the motion in force ends, NaN where it does not
     TARGET: Final = 34
+    # for the image of the cyclic interface: bits of `StateDWord` that change with commands, not with cycles; id of
+    # the axis error; phase of the homing; bits of the monitors' windows
+    FLAGS: Final = 35
+    ERROR: Final = 36
+    HOMING: Final = 37
+    WINDOWS: Final = 38
 
-    COUNT: Final = 35
+    COUNT: Final = 39
 
 
 class Status:

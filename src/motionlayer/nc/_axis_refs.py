@@ -1,0 +1,50 @@
+"""`AxisRefs`: the cyclic interface of all axes, as one buffer per direction."""
+
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from motionlayer.nc._axis_ref import NCTOPLC_AXIS_REF, PLCTONC_AXIS_REF
+from motionlayer.nc._axis_ref_kernels import LAST_P, LAST_V, MEMORY, MODULO, fill
+from motionlayer.store import Q, Store
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+DEFAULT_MODULO: Final = 360.0
+"""Modulo period (u) of an axis that names none: the modulo position is a view that linear axes have too."""
+
+
+class AxisRefs:
+    """`NcToPlc` and `PlcToNc` of all axes; the buffers never move.
+
+    What is shown is what was valid at a tick, before its setpoints were taken on: a block that is called in tick n sees
+    the image of the last finished tick (function-blocks 1.6).
+
+    Args:
+        store: where the values are; axes are its first columns.
+        modulo: modulo period per axis, u, > 0.
+        op_mode: `OpModeDWord` per axis without the cycle counter.
+
+    Attributes:
+        nc_to_plc: structured array `NCTOPLC_AXIS_REF`, one element per axis.
+        plc_to_nc: structured array `PLCTONC_AXIS_REF`, one element per axis.
+    """
+
+    def __init__(self, store: Store, modulo: list[float], op_mode: list[int]) -> None:
+        count = len(modulo)
+        self.nc_to_plc: NDArray[Any] = np.zeros(count, dtype=NCTOPLC_AXIS_REF)
+        self.plc_to_nc: NDArray[Any] = np.zeros(count, dtype=PLCTONC_AXIS_REF)
+        self._store = store
+        raw = self.nc_to_plc.view(np.uint8).reshape(count, NCTOPLC_AXIS_REF.itemsize)
+        self._views = raw.view(np.float64), raw.view(np.int32), raw.view(np.uint16)
+        self._op_mode = np.array(op_mode, dtype=np.int32)
+        self._memory = np.zeros((MEMORY, count))
+        self._memory[LAST_P] = store.table[Q.ACTUAL_P, :count]
+        self._memory[LAST_V] = 0.0
+        self._memory[MODULO] = modulo
+        self.nc_to_plc["AxisId"] = np.arange(1, count + 1)
+
+    def fill(self, tick: int) -> None:
+        """Show what is valid at `tick`."""
+        fill(self._store.table, *self._views, self._memory, self._op_mode, tick, self._store.dt)
