@@ -14,8 +14,8 @@ from typing import Any, Final
 import click
 
 from motionlayer.cli._main import group
-from motionlayer.command import ERRORS, ErrorId
-from motionlayer.machine import Description
+from motionlayer.command import ERRORS, RANGES, ErrorId, ErrorText
+from motionlayer.machine import MachineFile
 from motionlayer.nc import TRANSITIONS, AxisEvent, AxisState
 
 DOCS: Final = Path(__file__).resolve().parent.parent / "docs"
@@ -28,10 +28,10 @@ STATES: Final = {
     AxisState.DISABLED: "the drive is off",
     AxisState.STANDSTILL: "the drive is on, nothing moves",
     AxisState.ERRORSTOP: "in error, braking or at rest; only `reset()` leads out",
-    AxisState.STOPPING: "braking for `stop()`, `emergency_stop()` or `disable()`; no other motion is taken",
+    AxisState.STOPPING: "braking, or locked by a `stop()` that is held; no other motion is taken",
     AxisState.HOMING: "`home()` is under way",
     AxisState.DISCRETE_MOTION: "a move to a position, or a `halt()`",
-    AxisState.CONTINUOUS_MOTION: "a move with a velocity, without end",
+    AxisState.CONTINUOUS_MOTION: "a motion without end, or a jog",
     AxisState.SYNCHRONIZED_MOTION: "coupled to another axis; not yet",
 }
 
@@ -42,11 +42,12 @@ EVENTS: Final = {
     AxisEvent.OFF: "the drive is off, the axis at rest",
     AxisEvent.RESET: "`reset()`, drive ready",
     AxisEvent.RESET_OFF: "`reset()`, drive off",
-    AxisEvent.MOVE: "`move_absolute()`, `move_relative()`",
-    AxisEvent.MOVE_ENDLESS: "`move_velocity()`",
+    AxisEvent.MOVE: "`move_absolute()`, `move_relative()`, `move_additive()`, `move_modulo()`, inching",
+    AxisEvent.MOVE_ENDLESS: "`move_velocity()`, `move_continuous_absolute()`, `move_continuous_relative()`, `jog()`",
     AxisEvent.HALT: "`halt()`",
     AxisEvent.STOP: "`stop()`",
     AxisEvent.EMERGENCY_STOP: "`emergency_stop()`",
+    AxisEvent.FEED_LOST: "`enable()` without the direction of the motion",
     AxisEvent.HOME: "`home()`",
     AxisEvent.AT_REST: "the motion came to its end",
     AxisEvent.FAULT: "an error of the axis",
@@ -127,14 +128,23 @@ def errors() -> Iterator[str]:
     yield from ["# Errors", ""]
     yield "`command.error` and `axis.error` are a `MotionError` with `id`, `source`, `detail`; printed, it gives text,"
     yield "numbers and advice. The ids are those of TwinCAT NC, where it has one; in Python they are"
-    yield from ["`motionlayer.command.ErrorId`, an integer enum.", ""]
-    rows = ((f"0x{e:04X}", str(int(e)), f"`{e.name}`", text, advice) for e, (text, advice) in sorted(ERRORS.items()))
-    yield from table(["id", "decimal", "name", "meaning", "what to do"], rows)
+    yield "`motionlayer.command.ErrorId`, an integer enum. Errors without *answered by* are not raised by this version;"
+    yield "they are listed so that what another controller reports can be looked up. `motionlayer error 0x4225`"
+    yield from ["explains one in the terminal.", ""]
+    for kin in RANGES:
+        chosen = {error: entry for error, entry in ERRORS.items() if kin.first <= error <= kin.last}
+        if chosen:
+            yield from [f"## 0x{kin.first:04X}: {kin.title}", "", *_errors(chosen), ""]
+
+
+def _errors(chosen: dict[ErrorId, ErrorText]) -> Iterator[str]:
+    rows = ([f"0x{one:04X}", str(int(one)), f"`{one.name}`", *entry] for one, entry in chosen.items())
+    yield from table(["id", "decimal", "name", "meaning", "what to do", "answered by"], rows)
 
 
 def keys() -> Iterator[str]:
     """Yield the page of every key of the machine file."""
-    root = Description.model_json_schema()
+    root = MachineFile.model_json_schema()
     yield from ["# Every key of the machine file", ""]
     yield "With examples and explanations: [the machine file](machine-file.md). u is the unit of the axis. A key"
     yield from ["without default is required; *see meaning*: the default depends on other keys.", ""]
@@ -176,7 +186,8 @@ def _value(field: dict[str, Any]) -> str:
     if field.get("type") == "array":
         return f"list, each: {_value(field['items'])}"
     if field.get("type") == "object":
-        return f"table, each: {_value(field['additionalProperties'])}"
+        each = field["additionalProperties"]
+        return "table" if each is True else f"table, each: {_value(each)}"
     unit = f" ({field['x-unit']})" if field.get("x-unit") else ""
     return KINDS.get(field.get("type", ""), "number") + _range(field) + unit
 
@@ -208,8 +219,8 @@ def command_line() -> Iterator[str]:
     yield from ["# The command line", ""]
     yield "What `motionlayer --help` says. Results go to stdout, with what programs print; errors, notes and the"
     yield "progress bar go to stderr. `--program FILE[:NAME]` names a Python file and, after a colon, which"
-    yield "`async def NAME(run)` in it is to run; without `:NAME` it is `main`. So one file may hold several"
-    yield from ["programs.", ""]
+    yield "function in it is to run, `async def NAME(run)` or `def NAME(run)`; without `:NAME` it is `main`. So one"
+    yield from ["file may hold several programs.", ""]
     size = {"max_content_width": WIDTH, "terminal_width": WIDTH}
     whole = click.Context(group, info_name="motionlayer", **size, **group.context_settings)
     yield from _help(whole)

@@ -13,7 +13,7 @@ __version__ = "0.1.0.dev0"
 if TYPE_CHECKING:
     from motionlayer.command import Command, CommandAborted, CommandError, MotionError, all_of, any_of
     from motionlayer.drive import Fault
-    from motionlayer.machine import Machine, MachineError, Simulation
+    from motionlayer.machine import Machine, MachineError, MachineRun, RealTime, Replay, Simulation, replay
     from motionlayer.nc import AxisState, Direction, stopping
     from motionlayer.record import Trace
 
@@ -27,7 +27,11 @@ _HOME = {
     "Fault": "drive",
     "Machine": "machine",
     "MachineError": "machine",
+    "MachineRun": "machine",
+    "RealTime": "machine",
+    "Replay": "machine",
     "Simulation": "machine",
+    "replay": "machine",
     "AxisState": "nc",
     "Direction": "nc",
     "stopping": "nc",
@@ -43,11 +47,15 @@ __all__ = [
     "Fault",
     "Machine",
     "MachineError",
+    "MachineRun",
     "MotionError",
+    "RealTime",
+    "Replay",
     "Simulation",
     "Trace",
     "all_of",
     "any_of",
+    "replay",
     "stopping",
 ]
 

@@ -51,7 +51,7 @@ def test_an_unknown_group_is_one_error_that_lists_the_groups(capsys: pytest.Capt
     assert run("cor", None) == 2
     out, err = capsys.readouterr()
     assert out == ""
-    assert err.splitlines() == ["motionlayer bench: no group 'cor'; there are: core, numerics"]
+    assert err.splitlines() == ["motionlayer bench: no group 'cor'; there are: core, axis, numerics, runtime"]
 
 
 @pytest.mark.usefixtures("quick")

@@ -15,6 +15,9 @@ MOVE = Problem("position", 10.0, 0.0, 0.0, 500.0, Limits(100.0, 400.0, 800.0, 10
 TURN = Problem("position", 0.0, -60.0, 0.0, 300.0, Limits(100.0, 400.0, 800.0, 10_000.0))
 FAST = Problem("velocity", 0.0, 150.0, 0.0, 80.0, Limits(100.0, 400.0, 800.0, 10_000.0))
 STOP = Problem("stop", 0.0, 90.0, 100.0, 0.0, Limits(100.0, 400.0, 800.0, 10_000.0))
+PASS = MOVE._replace(kind="passing", velocity=60.0)
+JOIN = MOVE._replace(kind="synchronise", velocity=60.0)
+MEET = MOVE._replace(kind="rendezvous", velocity=60.0, pull=-300.0, at=9.0)
 
 
 def changed(problem: Problem, change: Callable[[Floats], None]) -> str:
@@ -32,7 +35,7 @@ def add(row: int, column: int, value: float) -> Callable[[Floats], None]:
     return change
 
 
-@pytest.mark.parametrize("problem", [MOVE, TURN, FAST, STOP], ids=lambda problem: problem.kind)
+@pytest.mark.parametrize("problem", [MOVE, TURN, FAST, STOP, PASS, JOIN, MEET], ids=lambda problem: problem.kind)
 def test_plans_are_fine(problem: Problem) -> None:
     assert faults([problem] * 2, [problem.plan()] * 2) == {}
 
@@ -59,6 +62,23 @@ def test_a_changed_piece_is_found(change: Callable[[Floats], None], found: str) 
 
 
 @pytest.mark.parametrize(
+    ("problem", "column", "found"),
+    [
+        (PASS, 1, "it does not end at its target"),
+        (PASS, 2, "it does not end at its velocity"),
+        (JOIN, 0, "it does not end at its target"),
+        (JOIN, 2, "it does not end at its velocity"),
+        (MEET, 0, "it does not end at its time"),
+        (MEET, 1, "it does not end at its target"),
+        (MEET, 3, "it does not end at its velocity"),
+        (MEET, 4, "it does not end at its velocity"),
+    ],
+)
+def test_another_end_than_was_asked_for_is_found(problem: Problem, column: int, found: str) -> None:
+    assert changed(problem, add(-1, column, 1e-9)) == found
+
+
+@pytest.mark.parametrize(
     ("problem", "field", "factor", "found"),
     [
         (MOVE, "velocity", 0.999, "the velocity limit is exceeded"),
@@ -66,6 +86,9 @@ def test_a_changed_piece_is_found(change: Callable[[Floats], None], found: str) 
         (MOVE, "deceleration", 0.999, "the acceleration or deceleration limit is exceeded"),
         (MOVE, "jerk", 0.999, "the jerk limit is exceeded"),
         (TURN, "acceleration", 0.999, "the acceleration or deceleration limit is exceeded"),
+        (PASS, "velocity", 0.999, "the velocity limit is exceeded"),
+        (JOIN, "jerk", 0.999, "the jerk limit is exceeded"),
+        (MEET, "deceleration", 0.37, "the acceleration or deceleration limit is exceeded"),
         (STOP, "deceleration", 0.9, "the acceleration or deceleration limit is exceeded"),
     ],
 )

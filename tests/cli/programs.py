@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 import time
+from types import SimpleNamespace
 
 from motionlayer import Simulation
 from motionlayer.event import Event, Kind, Level
@@ -22,6 +23,27 @@ async def noisy(run: Simulation) -> None:
     for tick in range(7):
         run.events.add(Event(tick, Level.WARNING, Kind.MESSAGE, "X", f"message {tick}"))
     await run.sleep(0.01)
+
+
+def cyclic(run: Simulation, memory: SimpleNamespace) -> None:
+    axis = run.axes["X"]
+    if run.tick == 0:
+        memory.enabling = axis.enable()
+    elif run.tick == 10:
+        assert memory.enabling.done
+        axis.move_absolute(20.0)
+    elif run.tick == 300:
+        print("there", axis.set_position)
+
+
+def cyclic_raising(run: Simulation) -> None:
+    if run.tick == 20:
+        raise ValueError("cyclic boom")
+
+
+def cyclic_stuck(run: Simulation) -> None:
+    while run.tick == 20:
+        pass
 
 
 async def raising(run: Simulation) -> None:
@@ -85,7 +107,25 @@ async def interrupting(run: Simulation) -> None:
     await run.sleep(1000.0)
 
 
+async def terminating(run: Simulation) -> None:
+    await run.sleep(0.01)
+    os.kill(os.getpid(), signal.SIGTERM)
+    await run.sleep(1000.0)
+
+
+async def hanging_up(run: Simulation) -> None:
+    await run.sleep(0.01)
+    os.kill(os.getpid(), signal.SIGHUP)
+    await run.sleep(0.05)
+
+
+async def waiting(run: Simulation) -> None:
+    print("waiting", flush=True)
+    await run.sleep(1000.0)
+
+
 async def interrupting_at_once(run: Simulation) -> None:
+    os.kill(os.getpid(), signal.SIGINT)
     os.kill(os.getpid(), signal.SIGINT)
     await run.sleep(1000.0)
 

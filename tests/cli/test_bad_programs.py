@@ -62,6 +62,7 @@ def test_a_program_that_does_not_yield(machine: Path, name: str) -> None:
     assert f"Error: program {name} has not yielded for 0.2 s in tick 10;" in done.stderr
     assert f'File "{PROGRAMS}", line ' in done.stderr
     assert "Traceback" not in done.stderr
+    assert "motionlayer/runtime" not in done.stderr, "the way to the program says nothing about it"
     trace = recorded(Path("run.trace"), 10)
     assert done.stdout.splitlines()[-1] == f"trace hash: {trace.hash}"
 
@@ -80,7 +81,8 @@ def test_a_program_that_swallows_interrupts(machine: Path) -> None:
         (".", None, "cannot be read: Is a directory"),
         ("notes.txt", "", "its name must end in .py"),
         ("p.py:nothing", "async def other(run): ...", "p.py has no function 'nothing'; it has other"),
-        ("p.py", "def main(run): ...", "'main' in p.py must be `async def main(run)`"),
+        ("p.py", "def main(a, b, c): ...", "'main' in p.py must be `async def main(run)`, `def main(run)` or"),
+        ("p.py", "def main(run): yield", "'main' in p.py must be `async def main(run)`, `def main(run)` or"),
         ("p.py", "async def main(): ...", "'main' in p.py must be `async def main(run)`"),
         ("p.py", "async def main(run:", "SyntaxError: '(' was never closed (p.py, line 1)"),
         ("p.py", "x = 1\ny = x / 0", "ZeroDivisionError: division by zero"),

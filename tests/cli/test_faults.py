@@ -1,16 +1,19 @@
 """What is not the fault of a program: our own, and that of files."""
 
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import click
 import pytest
 from click.testing import CliRunner
 
+from motionlayer import Machine, Simulation
 from motionlayer.cli import ExitCode
 from motionlayer.cli._main import _Group
 from motionlayer.record import Trace
-from tests.cli.support import MACHINE, call, program, python, recorded
+from tests.cli.support import MACHINE, SOURCE, call, program, python, recorded
 
 
 def test_a_fault_in_a_step_has_its_own_code(machine: Path) -> None:
@@ -54,9 +57,41 @@ def test_a_full_disk(machine: Path) -> None:
     assert "/dev/full: the trace cannot be written: No space left on device" in done.stderr
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+@pytest.mark.parametrize("name", ["check", "error", "schema"])
+def test_results_on_a_full_disk(machine: Path, name: str) -> None:
+    arguments = {"check": [str(machine)], "error": ["0x4260"], "schema": []}[name]
+    with Path("/dev/full").open("w", encoding="utf-8") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "motionlayer", name, *arguments],
+            env={**os.environ, "PYTHONPATH": str(SOURCE)},
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+            timeout=120,
+        )
+    assert done.stderr == "Error: stdout cannot be written: No space left on device; redirect it elsewhere\n"
+    assert done.returncode == ExitCode.TRACE
+
+
+def test_a_trace_that_another_run_writes_stays_as_it_is(machine: Path) -> None:
+    with Simulation(Machine.load(machine), trace="run.trace") as run:
+        run.step(3)
+        done = call("run", machine, "--time", 1, "--trace", "run.trace")
+        assert done.exit_code == ExitCode.TRACE
+        assert done.stderr == (
+            "Error: run.trace: another run still writes this trace; wait for its end or close() it, "
+            "or name another file with --trace\n"
+        )
+        run.step(2)
+    recorded(Path("run.trace"), 5)
+    assert call("run", machine, "--time", 1, "--trace", "run.trace").exit_code == ExitCode.OK
+
+
 def test_a_disk_that_is_full_in_the_middle(machine: Path) -> None:
     limited = (
-        "import resource, sys\nresource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000))\n"
+        "import resource, sys\nresource.setrlimit(resource.RLIMIT_FSIZE, (150_000, 150_000))\n"
         "from motionlayer.cli import main\nmain()"
     )
     options = (*program("shuttle"), "--time", "6", "--trace", "run.trace")

@@ -1,11 +1,15 @@
+from typing import get_args
+
 import pytest
 
-from motionlayer import __version__
+from motionlayer import __version__, runtime
 from motionlayer.cli import ExitCode
-from motionlayer.runtime._clock import PATIENCE
+from motionlayer.cli._options import FASTEST, LEVELS, SLOWEST
+from motionlayer.machine import LogDescription
+from motionlayer.runtime import PATIENCE
 from tests.cli.support import call, command, python
 
-COMMANDS = ("check", "run", "verify", "plot", "bench")
+COMMANDS = ("check", "run", "verify", "plot", "bench", "new", "schema", "error")
 
 
 @pytest.mark.parametrize("arguments", [[], *([name] for name in COMMANDS)])
@@ -32,6 +36,11 @@ def test_the_help_names_every_exit_code_and_command() -> None:
 
 def test_the_help_of_run_names_the_patience_of_the_runtime() -> None:
     assert f"[{PATIENCE:g}]" in call("run", "--help").stdout
+
+
+def test_what_the_help_knows_by_itself_is_what_the_runtime_takes() -> None:
+    assert (SLOWEST, FASTEST) == (runtime.SLOWEST, runtime.FASTEST)
+    assert get_args(LogDescription.model_fields["level"].annotation) == LEVELS
 
 
 def test_version() -> None:

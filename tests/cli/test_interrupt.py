@@ -13,9 +13,10 @@ from tests.cli.support import call, program, recorded
 @pytest.mark.parametrize(
     ("name", "ticks"),
     [
-        ("interrupting", 10),  # in the program, at once: the tick has not been recorded yet
-        ("interrupting_between", 256),  # in a step of the runtime: when the run next looks
-        ("hanging_predicate", 1),  # not even then: the second one counts at once
+        ("interrupting", 11),  # in a program: after the tick
+        ("interrupting_between", 2),  # in a step of the runtime: after the tick as well
+        ("hanging_predicate", 1),  # it never ends: the second one counts at once
+        ("interrupting_at_once", 0),  # two at once, in a program: the tick has not been recorded yet
     ],
 )
 def test_an_interrupted_run_ends_in_order(machine: Path, name: str, ticks: int) -> None:

@@ -40,6 +40,7 @@ def test_messages_are_counted_and_the_last_ones_shown(machine: Path) -> None:
     lines = call("run", machine, *program("noisy")).stdout.splitlines()
     start = lines.index("messages    0 errors, 7 warnings; the last 5:")
     assert lines[start + 1 :] == [f"              0.00{n}000 s  warning  X: message {n}" for n in range(2, 7)]
+    assert "messages    0 errors, 1 warning:" in call("run", machine, *program("refused")).stdout.splitlines()
 
 
 def test_a_time_ends_a_run_with_and_without_programs(machine: Path) -> None:

@@ -112,7 +112,7 @@ def test_a_listener_that_comes_late_is_called_at_once() -> None:
 
 def test_every_error_has_text_and_advice() -> None:
     assert set(ERRORS) == set(ErrorId)
-    assert all(text and advice for text, advice in ERRORS.values())
+    assert all(entry.text and entry.advice for entry in ERRORS.values())
 
 
 def test_numbers_count_from_one() -> None:

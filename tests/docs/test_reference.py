@@ -52,14 +52,14 @@ def known() -> dict[str, set[str]]:
         async def nothing() -> None:
             pass
 
-        axis, program = run.axes["X"], run.start(nothing())
+        axis, program, cyclic = run.axes["X"], run.start(nothing()), run.cyclic(lambda _: None)
         command = axis.enable()
-        run.run()
+        run.run(time=0.1)
     trace = run.trace
     packages = (motionlayer, motionlayer.machine, motionlayer.record, motionlayer.runtime, builtins)
     return {
         "Axis": set(dir(axis)),
-        "Command": {*dir(command), *dir(program)},
+        "Command": {*dir(command), *dir(program), *dir(cyclic)},
         "Simulation": {*dir(run), *inspect.signature(Simulation).parameters},
         "Trace": {*dir(trace), *(name.partition(".")[2] for name in trace)},
         "Exceptions": {name for package in packages for name in dir(package)},

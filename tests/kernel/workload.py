@@ -1,11 +1,25 @@
-"""A fixed workload of planning and sampling; prints a hash of every byte it makes."""
+"""A fixed workload of planning, sampling and encoding; prints a hash of every byte it makes."""
 
 import hashlib
 import random
 
 import numpy as np
 
-from motionlayer.profile import MAX_PIECES, Limits, Profile, plan_position, plan_stop, plan_velocity
+from motionlayer.profile import (
+    MAX_PIECES,
+    Limits,
+    Moving,
+    Profile,
+    State,
+    passable_velocity,
+    plan_passing,
+    plan_position,
+    plan_rendezvous,
+    plan_stop,
+    plan_synchronise,
+    plan_velocity,
+)
+from motionlayer.record import TraceWriter
 from motionlayer.store import Store
 
 PLANS = 150
@@ -23,12 +37,21 @@ def plan(source: random.Random) -> Profile:
     if source.random() < 0.2:  # small integers: touching phases
         bounds = Limits(*(float(source.randint(1, 5)) for _ in range(4)))
         p, v, a = (float(source.randint(-4, 4)) for _ in range(3))
-    kind = source.randrange(3)
-    if kind == 0:
-        return plan_position(p, v, a, source.uniform(-1e3, 1e3), bounds)
-    if kind == 1:
-        return plan_velocity(p, v, a, bounds.velocity * source.uniform(-1.0, 1.0), bounds)
-    return plan_stop(p, v, a, bounds)
+    target, u = source.uniform(-1e3, 1e3), bounds.velocity * source.uniform(-0.9, 0.9)
+    match source.randrange(6):
+        case 0:
+            return plan_position(p, v, a, target, bounds)
+        case 1:
+            return plan_velocity(p, v, a, u, bounds)
+        case 2:
+            return plan_passing(p, v, a, target, u, bounds)
+        case 3:
+            return plan_passing(p, v, a, target, passable_velocity(p, v, a, target, u, bounds), bounds)
+        case 4:
+            return plan_synchronise(p, v, a, Moving(target, u), bounds)
+    stop = plan_stop(p, v, a, bounds)
+    rest = State(float(stop.pieces[-1, 1]), 0.0, 0.0)
+    return plan_rendezvous(p, v, a, rest, bounds, at=stop.duration + 1.0)
 
 
 def main() -> None:
@@ -43,7 +66,22 @@ def main() -> None:
             store.adopt(source.randrange(8), source.choice(profiles).pieces, offset=source.uniform(0.0, 0.001))
         digest.update(repr(store.sample(tick)).encode())
         digest.update(store.table.tobytes())
+    for chunk in encode().chunks:
+        digest.update(chunk)
     print(digest.hexdigest())
+
+
+def encode() -> TraceWriter:
+    """Write columns of every kind: constant, as they are, multiples of a resolution, and what is no multiple."""
+    resolutions = [0.0, 0.0, 1e-3, 0.5, 1e-9, 1e-300]
+    signals = [{"name": str(number), "unit": "mm", "resolution": each} for number, each in enumerate(resolutions)]
+    writer = TraceWriter(None, {"base_cycle_ns": 1_000_000, "signals": signals})
+    for first in range(0, 300, 60):
+        block = np.random.default_rng(first).normal(scale=100.0, size=(60, len(signals)))
+        block[:, 0] = np.nan
+        block[::7, 3] = np.inf
+        writer.rows(first, block)
+    return writer
 
 
 if __name__ == "__main__":

@@ -137,6 +137,37 @@ BAD = [
         "= 2: not a format this version understands; formats unders",
     ),
     ('name = "m"\nformat = true\n' + AXIS, 2, "format", "formats understood: 1"),
+    # tasks
+    (HEAD + AXIS + "[task.a]\nevery = 0\n", 8, "task.a.every", "= 0: must be from 1 to 1_000_000"),
+    (HEAD + AXIS + "[task.a]\nevery = 1.5\n", 8, "task.a.every", "must be a whole number from 1 to"),
+    (HEAD + AXIS + "[task.a]\nevery = 4\nphase = 4\n", 9, "task.a.phase", "= 4: must be from 0 to every - 1 = 3"),
+    (HEAD + AXIS + "[task.a]\nphase = -1\n", 8, "task.a.phase", "= -1: must be at least 0"),
+    (HEAD + AXIS + "[task.a]\nbudget = 0\n", 8, "task.a.budget", "= 0: must be greater than 0 (s)"),
+    (
+        HEAD + AXIS + "[task.a]\nevery = 10\nbudget = 0.0011\n",
+        9,
+        "task.a.budget",
+        "= 0.0011: must be at most the base cycle = 0.001 (s)",
+    ),
+    (
+        HEAD + "base_cycle_ns = 1\n" + AXIS + "[task.a]\nbudget = 0.5\n",
+        3,
+        "base_cycle_ns",
+        "= 1: must be from 50_000 to 100_000_000 (ns)",
+    ),
+    (
+        HEAD + AXIS + "[task.a]\nbudget = 0.0006\n[task.b]\nevery = 10\nbudget = 0.0005\n",
+        11,
+        "task.b.budget",
+        "= 0.0005: 0.0011 s in one tick together with a, and the base cycle is 0.001 s\n    lower the budgets",
+    ),
+    (
+        HEAD + AXIS + '[task.fast]\n[program.a]\nfile = "pick.py"\ntask = "fats"\n',
+        10,
+        "program.a.task",
+        '= "fats": no such task; did you mean fast?',
+    ),
+    (HEAD + AXIS + '[program.a]\nfile = "pick.py"\ntask = "x"\n', 9, "program.a.task", "tasks are main"),
     # programs and trace
     (HEAD + AXIS + "[program.a]\n", 7, "program.a.file", "missing; must be a text"),
     (HEAD + AXIS + '[program.a]\nfile = "no.py"\n', 8, "program.a.file", '= "no.py": no such file'),
@@ -223,7 +254,7 @@ def test_all_problems_come_at_once_in_the_order_of_the_file(write: Write) -> Non
         (8, "axis.X.max_velocity"),
         (32, "axis.Y.home.velocity"),
         (37, "program.pick.file"),
-        (41, "trace.signals[1]"),
+        (42, "trace.signals[1]"),
     ]
 
 

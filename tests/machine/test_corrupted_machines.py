@@ -15,7 +15,8 @@ Write = Callable[[str], Path]
 _NOT_FINITE = ["nan", "inf", "-inf", "+nan", "1" + "0" * 400]
 _NOT_A_NUMBER = ['"1"', "true", "[1.0]", "{}", "1979-05-27", '"""\n1"""']
 _NOT_A_TEXT = ["0", "-1.5", "nan", "false", '["a"]', "{}", '""']
-_TEXTS = {"name", "unit", "mode", "direction", "kind", "file", "function"}
+_TEXTS = {"name", "unit", "mode", "direction", "kind", "file", "function", "task"}
+_FROM_ZERO = {"seed", "phase"}
 _ANY_SIGN = {"software_limit_min", "software_limit_max", "start_position", "position", "switch"}
 
 
@@ -38,7 +39,7 @@ def _bad_literals(key: str) -> st.SearchStrategy[str]:
         return bad
     negative = st.floats(max_value=-5e-324, allow_infinity=False).map(repr)
     whole = st.integers(-(2**70), -1).map(str)
-    return st.one_of(bad, negative, whole) if key == "seed" else st.one_of(bad, negative, whole, st.just("0"))
+    return st.one_of(bad, negative, whole) if key in _FROM_ZERO else st.one_of(bad, negative, whole, st.just("0"))
 
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)

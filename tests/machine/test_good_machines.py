@@ -28,7 +28,8 @@ def test_everything_set_is_kept(write: Write) -> None:
     description = load_description(write(GOOD))
     x = description.axis["X"]
     assert (x.max_deceleration, x.velocity, x.home.switch, x.home.velocity) == (12000.0, 1000.0, -5.0, 50.0)
-    assert description.program["pick"].function == "pick_and_place"
+    assert (description.program["pick"].function, description.program["pick"].task) == ("pick_and_place", "fast")
+    assert dict(description.task["fast"]) == {"every": 4, "phase": 1, "budget": 0.0002}
     assert description.trace.resolution == {"X.set_position": 1e-6}
 
 
@@ -82,7 +83,24 @@ def test_schema_describes_every_field_and_asks_only_for_what_has_no_default() ->
         "DriveDescription": [],
         "FaultDescription": ["axis", "kind"],
         "GroupDescription": ["axes"],
+        "LogDescription": ["folder"],
+        "ManualDescription": [],
+        "ModuloDescription": [],
         "MonitorDescription": [],
         "ProgramDescription": ["file"],
+        "RealTimeDescription": [],
+        "TaskDescription": [],
         "TraceDescription": [],
     }
+
+
+def test_tasks_that_never_meet_share_no_budget() -> None:
+    """The task without a budget takes phase 0, so the other two meet neither it nor each other."""
+    axis = {"max_velocity": 1, "max_acceleration": 1, "max_jerk": 1}
+    tasks = {
+        "none": {"every": 3},
+        "a": {"every": 3, "budget": 0.0009},
+        "b": {"every": 3, "budget": 0.0009},
+    }
+    description = check_description({"format": 1, "name": "a", "axis": {"X": axis}, "task": tasks})
+    assert description.task["a"].budget == 0.0009

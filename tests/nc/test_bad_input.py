@@ -137,14 +137,15 @@ def test_every_kind_of_number_is_taken(value: Any) -> None:
 @pytest.mark.parametrize("name", ERROR)
 def test_the_message_names_value_range_and_unit(name: str) -> None:
     _, x = ready()
-    command = x.move_absolute(10.0, **{name: 1e9})
+    dynamics: dict[str, Any] = {name: 1e9}
+    command = x.move_absolute(10.0, **dynamics)
     for part in ("X", name, "1000000000.0", str(TOO_MUCH[name]), "mm/s"):
         assert part in str(command.error)
 
 
 @pytest.mark.parametrize("name", ERROR)
 @pytest.mark.parametrize("value", [5e-324, 1e-300, 1e-30])
-def test_dynamics_near_zero_are_refused_or_obeyed_but_never_harm(name: str, value: float) -> None:
+def test_dynamics_near_zero_are_refused_or_obeyed_but_never_harm(name: str, value: Any) -> None:
     run, x = ready()
     move = x.move_absolute(100.0, **{name: value})
     run.step(200)

@@ -20,7 +20,6 @@ S = AxisState
 
 def test_without_monitors_there_is_nothing_to_look_at() -> None:
     run, x = ready()
-    assert x.monitors is None
     finish(run, x.move_absolute(100.0))
     assert (x.in_target, x.in_position_area) == (False, False)
     assert x.lag == 0.0

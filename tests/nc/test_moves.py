@@ -1,6 +1,7 @@
 """Absolute, relative and endless moves, halt and stop: where they end, when, and what they report on the way."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -135,7 +136,7 @@ def test_the_target_can_change_in_every_phase(tick: int, goal: float) -> None:
         {"velocity": 450.0, "acceleration": 3000.0, "deceleration": 5500.0, "jerk": 8e4},
     ],
 )
-def test_the_dynamics_can_change_in_every_phase(tick: int, dynamics: dict[str, float]) -> None:
+def test_the_dynamics_can_change_in_every_phase(tick: int, dynamics: dict[str, Any]) -> None:
     run, x = ready()
     x.move_absolute(300.0)
     run.step(tick)
@@ -150,7 +151,7 @@ def test_the_dynamics_can_change_in_every_phase(tick: int, dynamics: dict[str, f
 def test_each_dynamic_value_is_kept(name: str) -> None:
     """A smaller value bounds just what it names."""
     run, x = ready()
-    value = {"velocity": 400.0, "acceleration": 2500.0, "deceleration": 3000.0, "jerk": 8e4}[name]
+    value: Any = {"velocity": 400.0, "acceleration": 2500.0, "deceleration": 3000.0, "jerk": 8e4}[name]
     _, v, a = follow(run, x, x.move_absolute(300.0, **{name: value})).T
     peak = {"velocity": 500.0, "acceleration": 5000.0, "deceleration": 6000.0, "jerk": 1e5} | {name: value}
     assert v.max() == pytest.approx(peak["velocity"], rel=1e-9)

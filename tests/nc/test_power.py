@@ -44,7 +44,7 @@ def test_enable_in_motion_changes_nothing() -> None:
     run, x = ready()
     move = x.move_absolute(300.0)
     run.step(50)
-    table = x._store.snapshot().table
+    table = x._store.table.copy()
     assert x.enable().done
     assert (x._store.table == table).all()
     finish(run, move)

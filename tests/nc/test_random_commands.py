@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from motionlayer import Command, Direction, Machine, Simulation, Trace, stopping
 from motionlayer.command import ErrorId
 from motionlayer.event import Kind
-from motionlayer.nc import Axis
+from motionlayer.nc import Axis, BufferMode, JogMode
 from motionlayer.verify import assert_valid
 
 if TYPE_CHECKING:
@@ -80,6 +80,7 @@ ACT = st.builds(
     axis=st.sampled_from("XYZ"),
     call=st.sampled_from(
         ["absolute"] * 4 + ["relative", "velocity", "velocity", "halt", "stop", "home", "override", "override"]
+        + ["blended"] * 4 + ["additive", "modulo", "continuous", "jog"]
         + ["enable", "enable", "disable", "reset", "passes", "fault"]
     ),
     place=st.one_of(st.floats(-0.1, 1.0), st.sampled_from([0.0, 1.0])),
@@ -101,10 +102,16 @@ def call(axis: Axis, act: Act) -> Command[Any] | None:
     place = low + act.place * span
     most = axis.config.maximum
     v, a, d, j = (fraction * value for fraction, value in zip(act.fractions, most, strict=True))
-    direction = list(Direction)[act.ticks % 3]
+    direction = list(Direction)[act.ticks % len(Direction)]
+    mode = BufferMode(act.ticks % len(BufferMode))
     calls: dict[str, Callable[[], Command[Any] | None]] = {
         "absolute": lambda: axis.move_absolute(place, velocity=v, acceleration=a, deceleration=d, jerk=j),
         "relative": lambda: axis.move_relative((act.place - 0.5) * span / 4.0, velocity=v, jerk=j),
+        "blended": lambda: axis.move_absolute(place, velocity=v, deceleration=d, buffer_mode=mode),
+        "additive": lambda: axis.move_additive((act.place - 0.5) * span / 4.0, velocity=v, buffer_mode=mode),
+        "modulo": lambda: axis.move_modulo(act.place * span, direction, velocity=v, buffer_mode=mode),
+        "continuous": lambda: axis.move_continuous_absolute(place, v, acceleration=a, jerk=j, buffer_mode=mode),
+        "jog": lambda: axis.jog(direction, JogMode(act.ticks % len(JogMode)), velocity=v),
         "velocity": lambda: axis.move_velocity(v, direction, acceleration=a, deceleration=d, jerk=j),
         "halt": lambda: axis.halt(deceleration=d or None, jerk=j),
         "stop": lambda: axis.stop(deceleration=d, jerk=j or None),
@@ -129,7 +136,7 @@ async def play(run: Simulation, part: Part, commands: list[Command[Any]]) -> Non
             if command is None:
                 continue
             commands.append(command)
-            if act.awaits and act.call != "velocity":
+            if act.awaits and act.call not in ("velocity", "continuous", "jog"):
                 try:
                     with run.fail_after(0.3):
                         await command.settled()

@@ -82,9 +82,9 @@ def reach(situation: str) -> tuple[Simulation, Axis]:
 
 def everything(x: Axis) -> list[object]:
     """Return all that a refused command must leave alone."""
-    shot = x._store.snapshot()
-    arrays = [shot.table, shot.pieces, shot.counts, shot.current]
-    known = [x.state, x.command, x._job, x._homing, x._power, x._reset, x.error, x.homed, shot.tick]
+    store = x._store
+    arrays = [store.table, store.pieces, store.counts, store.current]
+    known = [x.state, x.command, x._job, x._homing, x._power, x._reset, x.error, x.homed, store.tick]
     busy = x.command.busy if x.command is not None else None
     return [*known, busy, *(array.tobytes() for array in arrays)]
 

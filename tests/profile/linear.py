@@ -82,13 +82,18 @@ def _steps(times: NDArray[np.float64]) -> csr_array:
 
 
 def farthest_in(start: Start, direction: float, end_velocity: float, time: float, limits: Limits, steps: int) -> float:
-    """Return the greatest direction·p after `time`, over every instant of the reversal if there is one."""
-    if start.v * direction >= 0.0:
+    """Return the greatest direction·p after `time`, over every instant of the reversal if there is one.
+
+    The way may reverse at its begin or at its end, not at both.
+    """
+    begins, ends = start.v * direction >= 0.0, end_velocity * direction >= 0.0
+    if begins and ends:
         return farthest(start, direction, end_velocity, [Part(time, steps, direction)], limits)
-    half = steps // 2
+    assert begins or ends
+    half, first = steps // 2, direction if begins else -direction
 
     def turned_at(share: float) -> float:
-        parts = [Part(share * time, half, -direction), Part(time - share * time, half, direction)]
+        parts = [Part(share * time, half, first), Part(time - share * time, half, -first)]
         return farthest(start, direction, end_velocity, parts, limits)
 
     shares = [0.02 + 0.06 * k for k in range(17)]
@@ -107,10 +112,10 @@ def farthest_in(start: Start, direction: float, end_velocity: float, time: float
 
 
 def can_meet(
-    start: Start, direction: float, distance: float, u: float, time: float, limits: Limits, steps: int
+    start: Start, direction: float, distance: float, w: float, u: float, time: float, limits: Limits, steps: int
 ) -> bool:
-    """Tell whether some way meets at `time` a point that was `distance` away, in `direction`, and moves at u."""
-    return farthest_in(start, direction, u, time, limits, steps) >= direction * (distance + u * time)
+    """Tell whether some way meets at `time`, with velocity u, a point that was `distance` away and moves at w."""
+    return farthest_in(start, direction, u, time, limits, steps) >= direction * (distance + w * time)
 
 
 def can_return(start: Start, velocity: float, time: float, limits: Limits, steps: int, pull: float) -> bool:

@@ -36,6 +36,19 @@ def _position_time(v: float, a: float, distance: float, limits: Limits, fastest:
     return (float(_trajectory(order).duration) + shortened) * unit
 
 
+def passing_times(v: float, a: float, distance: float, u: float, limits: Limits) -> Iterator[float]:
+    """Give ruckig's shortest time to pass a distance with the velocity u: of the problem, then of those beside it."""
+    unit = limits.velocity / limits.acceleration
+    length = limits.velocity * unit
+    shortened = max(abs(distance) / length - LONG, 0.0)
+    for faster, farther in NUDGES:
+        order = _order(ruckig.ControlInterface.Position, v, a, limits)
+        order.max_velocity = [1.0 + faster]
+        order.target_position = [(distance / length - (shortened if distance > 0.0 else -shortened)) * (1.0 + farther)]
+        order.target_velocity = [u / limits.velocity]
+        yield (float(_trajectory(order).duration) + shortened) * unit
+
+
 def velocity_time(v: float, a: float, target: float, target_a: float, limits: Limits) -> tuple[float, float]:
     """Return the shortest time from (v, a) to (target, target_a), and the distance on the way."""
     unit = limits.velocity / limits.acceleration

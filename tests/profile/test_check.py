@@ -19,7 +19,8 @@ from motionlayer.profile._check import (
     REASONS,
     TIME_RUNS_BACK,
     VELOCITY_LIMIT,
-    check,
+    check_meeting,
+    check_velocity,
 )
 
 from .cases import Problem, inside, some
@@ -31,7 +32,7 @@ LAST = len(GOOD) - 1
 
 
 def verdict(pieces: NDArray[np.float64], limits: Limits = LIMITS, target: float = TARGET) -> int:
-    return check(pieces, len(pieces), target, True, *limits)
+    return check_meeting(pieces, len(pieces), target, 0.0, 0.0, *limits)
 
 
 def mutated(row: int, field: int, value: float) -> NDArray[np.float64]:
@@ -112,15 +113,15 @@ def test_end_state_of_a_single_piece() -> None:
 
 def test_end_velocity() -> None:
     pieces = plan_velocity(0.0, 0.0, 0.0, 50.0, LIMITS).pieces
-    assert check(pieces, len(pieces), 50.0, False, *LIMITS) == FINE
-    assert check(pieces, len(pieces), 50.0000001, False, *LIMITS) == END_STATE
+    assert check_velocity(pieces, len(pieces), 50.0, *LIMITS) == FINE
+    assert check_velocity(pieces, len(pieces), 50.0000001, *LIMITS) == END_STATE
 
 
 def test_a_start_inside_excuses_nothing() -> None:
     # Reversal with the larger limit on the wrong side of v = 0.
     pieces = plan_velocity(0.0, -100.0, 0.0, 100.0, Limits(100.0, 1000.0, 1000.0, 10000.0)).pieces
     for limits in (LIMITS, LIMITS._replace(acceleration=500.0, deceleration=1000.0)):
-        assert check(pieces, len(pieces), 100.0, False, *limits) == ACCELERATION_LIMIT
+        assert check_velocity(pieces, len(pieces), 100.0, *limits) == ACCELERATION_LIMIT
 
 
 FAST = (0.0, 150.0, 0.0)
@@ -171,11 +172,11 @@ def test_any_visible_change_is_refused(problem: Problem, data: st.DataObject) ->
     assume(count > 2)
     row, field = data.draw(st.integers(1, count - 1)), data.draw(st.integers(1, 3))
     pieces = changed(problem, row, field, data.draw(st.sampled_from([-1.0, 1.0])))
-    assert check(pieces, len(pieces), problem.target, True, *problem.limits) != FINE
+    assert check_meeting(pieces, len(pieces), problem.target, 0.0, 0.0, *problem.limits) != FINE
 
 
 def test_a_change_below_the_clock_is_none() -> None:
     # Found by the test above: positions of 1e-18 within 1e-6 s, at a velocity limit of 1, are finer than the clock.
     problem = Problem(0.0, 0.0, 1e-6, 0.0, Limits(1.0, 1.0, 1.0, 1.0))
     pieces = changed(problem, 1, 1, -1.0)
-    assert check(pieces, len(pieces), problem.target, True, *problem.limits) != FINE
+    assert check_meeting(pieces, len(pieces), problem.target, 0.0, 0.0, *problem.limits) != FINE

@@ -10,9 +10,18 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from motionlayer.profile import Limits, Moving, Profile, plan_position, plan_stop, plan_synchronise, stop_displacement
+from motionlayer.profile import (
+    Limits,
+    Moving,
+    Profile,
+    plan_passing,
+    plan_position,
+    plan_stop,
+    plan_synchronise,
+    stop_displacement,
+)
 from motionlayer.profile._check import time_back
-from motionlayer.profile._kernels import steady_displacement
+from motionlayer.profile._meet import gain
 
 from .linear import Start, can_meet, can_return
 from .physics import assert_lawful, curve
@@ -28,6 +37,7 @@ class Case(NamedTuple):
     start: Start
     direction: float
     distance: float
+    w: float
     u: float
     limits: Limits
 
@@ -36,39 +46,47 @@ def power(source: random.Random) -> float:
     return float(10.0 ** source.uniform(-1.0, 1.0))
 
 
+KINDS = ("rest", "cruising", "any", "moving", "passing", "backing off")
+"""Of cases: from rest to rest, from a velocity, from any state, joining a target, passing one far away or too near."""
+
+
 def drawn(source: random.Random, kind: str) -> Case:
     """Draw limits up to 100 apart, a start inside, and a target some stopping distances away on either side."""
     limits = Limits(*(power(source) for _ in range(4)))
     vel, acc, dec, jerk = limits
+    joins = kind in {"moving", "passing", "backing off"}
     while True:
         v = 0.0 if kind == "rest" else source.uniform(-vel, vel)
-        a = source.uniform(-1.0, 1.0) * (acc if source.random() < 0.5 else dec) if kind in {"any", "moving"} else 0.0
+        a = source.uniform(-1.0, 1.0) * (acc if source.random() < 0.5 else dec) if kind == "any" or joins else 0.0
         rule = acc if v * a > 0.0 else dec
         reached = v + a * abs(a) / (2.0 * jerk)
-        u = source.uniform(-vel, vel) if kind == "moving" else 0.0
+        u = source.uniform(-vel, vel) if joins else 0.0
         direction = source.choice((-1.0, 1.0))
-        one_sign = v * u >= 0.0 and direction * u >= 0.0
-        if abs(a) <= rule and abs(reached) <= vel and reached * v >= 0.0 and one_sign:
+        signs = v * direction >= 0.0 >= direction * u if kind == "backing off" else v * u >= 0.0 <= direction * u
+        if abs(a) <= rule and abs(reached) <= vel and reached * v >= 0.0 and signs:
             break
-    near = steady_displacement(np.zeros((20, 5)), v, a, u, acc, dec, jerk)
-    return Case(Start(v, a), direction, near + direction * power(source) * vel * vel / acc, u, limits)
+    w = u if kind == "moving" else 0.0
+    near = gain(np.zeros((20, 5)), v, a, w, u, acc, dec, jerk)
+    return Case(Start(v, a), direction, near + direction * power(source) * vel * vel / acc, w, u, limits)
 
 
 def ours(case: Case) -> float:
-    (v, a), _, distance, u, limits = case
+    (v, a), _, distance, w, u, limits = case
     if u == 0.0:
         return plan_position(0.0, v, a, distance, limits).duration
+    if w == 0.0:
+        return plan_passing(0.0, v, a, distance, u, limits).duration
     return plan_synchronise(0.0, v, a, Moving(distance, u), limits).duration
 
 
 def assert_optimal(case: Case, steps: int) -> None:
     time = ours(case)
-    start, direction, distance, u, limits = case
-    assert not can_meet(start, direction, distance, u, time / WORST, limits, steps), case
-    assert can_meet(start, direction, distance, u, time * GRID, limits, steps), case
+    start, direction, distance, w, u, limits = case
+    assert not can_meet(start, direction, distance, w, u, time / WORST, limits, steps), case
+    assert can_meet(start, direction, distance, w, u, time * GRID, limits, steps), case
 
 
-@pytest.mark.parametrize("kind", ["rest", "cruising", "any", "moving"])
+@pytest.mark.parametrize("kind", KINDS)
 def test_one_is_as_quick_as_any_way(kind: str) -> None:
     source = random.Random(kind)
     assert_optimal(drawn(source, kind), 80)
@@ -77,12 +95,12 @@ def test_one_is_as_quick_as_any_way(kind: str) -> None:
 def test_unequal_phases() -> None:
     # 44 s under D, then 5 s under both: with 200 steps the program's way is 3 % longer, with 800 only 0.1 %.
     limits = Limits(6.160290931455572, 7.464209674069866, 0.11103922947375991, 1.0393068680019601)
-    assert_optimal(Case(Start(4.9139784854254085, 0.0), -1.0, 107.9160804739588, 0.0, limits), 200)
+    assert_optimal(Case(Start(4.9139784854254085, 0.0), -1.0, 107.9160804739588, 0.0, 0.0, limits), 200)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["rest", "cruising", "any", "moving"])
-def test_150_are_as_quick_as_any_way(kind: str) -> None:
+@pytest.mark.parametrize("kind", KINDS)
+def test_228_are_as_quick_as_any_way(kind: str) -> None:
     source = random.Random(f"slow {kind}")
     for _ in range(38):
         assert_optimal(drawn(source, kind), 200)

@@ -1,12 +1,22 @@
 """The published table: what is inside its ranges is planned, at the edges too; the page says what the code says."""
 
+import math
 import random
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from motionlayer.profile import RANGES, TOLERANCES, Limits, PlanError, plan_position, plan_velocity
+from motionlayer.profile import (
+    RANGES,
+    TOLERANCES,
+    Limits,
+    PlanError,
+    passable_velocity,
+    plan_passing,
+    plan_position,
+    plan_velocity,
+)
 
 from .cases import Problem, many
 from .physics import assert_continuous, assert_lawful, assert_rests_at
@@ -47,7 +57,11 @@ def test_everything_inside_the_ranges_is_planned(edge: bool) -> None:
         planned += 1
         problem.position()
         problem.stop()
-        problem.velocity(source.uniform(-1.0, 1.0) * problem.limits.velocity)
+        share = source.uniform(-1.0, 1.0)
+        problem.velocity(share * problem.limits.velocity)
+        u = math.copysign(share, problem.target) * problem.limits.velocity  # a turn after a long cruise is refused
+        assert plan_passing(*problem[:4], u, problem.limits).pieces[-1, 1] == problem.target
+        assert abs(passable_velocity(*problem[:4], u, problem.limits)) <= problem.limits.velocity
     assert planned > many(3000)
 
 
@@ -98,6 +112,8 @@ def test_found_once(problem: Problem) -> None:
 def test_target_farther_than_a_float_is_refused() -> None:
     with pytest.raises(PlanError), np.errstate(all="ignore"):
         plan_position(-1.7e308, 0.0, 0.0, 1.7e308, Limits(1.0, 1.0, 1.0, 1.0))
+    with pytest.raises(PlanError), np.errstate(all="ignore"):
+        plan_passing(-1.7e308, 0.0, 0.0, 1.7e308, 0.5, Limits(1.0, 1.0, 1.0, 1.0))
 
 
 @pytest.mark.parametrize("limit", [5e-324, 1e-310, 1e308])

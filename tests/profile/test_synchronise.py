@@ -1,4 +1,4 @@
-"""Synchronising: the last piece is the target's motion, limits are of the absolute motion, the time is as asked."""
+"""Synchronising: the last piece is the target's motion, limits are of the absolute motion."""
 
 import math
 
@@ -46,20 +46,6 @@ def test_any_target_below_the_limit_is_joined_lawfully(problem: Problem, share: 
 
 
 @some(200)
-@given(st.one_of(integers(), inside()), signed, st.floats(1.0, 20.0))
-def test_meeting_at_a_time(problem: Problem, share: float, later: float) -> None:
-    target = moving(problem, share)
-    earliest = plan_synchronise(*problem[:3], target, problem.limits).duration
-    profile = plan_synchronise(*problem[:3], target, problem.limits, at=later * earliest)
-    assert_lawful(profile, problem[:3], problem.limits)
-    assert_joins(profile, target)
-    assert profile.duration <= later * earliest
-    # A target that comes by where the fastest way to its velocity ends is joined there and then.
-    direct = plan_velocity(*problem[:3], target.velocity, problem.limits)
-    assert profile.duration >= later * earliest * (1.0 - 1e-6) or profile.pieces.tolist() == direct.pieces.tolist()
-
-
-@some(200)
 @given(st.one_of(integers(), inside()))
 def test_a_target_that_stands_is_a_move_to_a_position(problem: Problem) -> None:
     there = plan_synchronise(*problem[:3], Moving(problem.target, 0.0), problem.limits)
@@ -93,7 +79,7 @@ def test_a_target_that_comes_by_is_joined_there_and_then() -> None:
     limits = Limits(2.0, 2.0, 4.0, 6.0)
     direct = plan_velocity(0.0, 2.0, -6.0, -1.0, limits).pieces[-1]
     target = Moving(float(direct[1] + direct[0]), -1.0)
-    profile = plan_synchronise(0.0, 2.0, -6.0, target, limits, at=4.0)
+    profile = plan_synchronise(0.0, 2.0, -6.0, target, limits)
     assert_joins(profile, target)
     assert profile.duration == direct[0]
 
@@ -111,8 +97,6 @@ def test_ways_of_being_too_fast_are_named() -> None:
         plan_synchronise(*START, Moving(10.0, 100.1), LIMITS)
     with pytest.raises(PlanError, match="stays out of reach"):
         plan_synchronise(*START, Moving(10.0, 100.0), LIMITS)
-    with pytest.raises(PlanError, match=r"cannot be met before 0\.\d+ s"):
-        plan_synchronise(*START, Moving(10.0, 0.0), LIMITS, at=0.01)
 
 
 def test_a_target_as_fast_as_the_limit_is_met_where_it_comes_from_behind() -> None:
@@ -125,12 +109,6 @@ def test_a_target_as_fast_as_the_limit_is_met_where_it_comes_from_behind() -> No
 def test_already_there() -> None:
     profile = plan_synchronise(3.0, 40.0, 0.0, Moving(3.0, 40.0), LIMITS)
     assert profile.pieces.tolist() == [[0.0, 3.0, 40.0, 0.0, 0.0]]
-
-
-@pytest.mark.parametrize("at", [math.nan, -1.0, -math.inf])
-def test_a_time_that_is_none_is_refused(at: float) -> None:
-    with pytest.raises(ValueError, match="time of meeting"):
-        plan_synchronise(*START, Moving(1.0, 1.0), LIMITS, at=at)
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
@@ -160,6 +138,6 @@ def test_message_can_be_pasted() -> None:
     with pytest.raises(PlanError) as caught:
         plan_synchronise(*START, Moving(1.0 / 3.0, 100.0), LIMITS)
     call = str(caught.value).split(": ", 1)[1]
-    names = {"plan_synchronise": plan_synchronise, "Moving": Moving, "Limits": Limits, "inf": math.inf}
+    names = {"plan_synchronise": plan_synchronise, "Moving": Moving, "Limits": Limits}
     with pytest.raises(PlanError, match="out of reach"):
         eval(call, names)  # noqa: S307 - that is the promise

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from motionlayer.event import Event, Kind, Level
-from motionlayer.record import Plan, Trace, TraceWriter
+from motionlayer.event import Event, Input, Kind, Level
+from motionlayer.record import Gap, Plan, Trace, TraceWriter
 
 Floats = NDArray[np.float64]
 
@@ -46,10 +46,16 @@ def event(tick: int = 0, text: str = "start ✓\nline \ud800", command: int = 1)
     return Event(tick, Level.WARNING, Kind.ACCEPTED, "X", text, 0x4B, command)
 
 
+def received(tick: int = 0, payload: bytes = b"\x00PLAN\xff") -> Input:
+    return Input(tick, "late ✓", payload)
+
+
 def write(block: Floats, names: list[str], target: Any = None, resolution: float = 0.0, size: int = 7) -> TraceWriter:
-    """Write a small trace with a plan and an event in front of every block."""
+    """Write a small trace with a gap, an input, a plan and an event in front of every block."""
     writer = TraceWriter(target, header(names, resolution))
     for first in range(0, len(block), size):
+        writer.gap(Gap(first, 0, 2))
+        writer.input(received(first))
         writer.plan(plan(tick=first, pieces=np.full((2, 5), first + 0.1)))
         writer.event(event(first))
         writer.rows(first, block[first : first + size])

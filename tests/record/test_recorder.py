@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from motionlayer.event import Event, Kind, Level
 from motionlayer.record import Recorder, Signal, Trace, TraceError
 
-from .samples import Floats, event, plan
+from .samples import Floats, event, plan, received
 
 HEADER = {"product": "test", "base_cycle_ns": 250_000}
 ROWS, COLUMNS, TICKS = 6, 3, 50
@@ -154,6 +154,89 @@ def test_a_jump_of_the_ticks_is_a_gap() -> None:
     assert recorder.trace().ticks.tolist() == [5, 6, 7, 20, 21]
 
 
+def test_a_recording_that_went_back_is_like_one_that_never_left() -> None:
+    values = tables()
+    table = np.zeros((ROWS, COLUMNS))
+    recorder = Recorder(table, signals(0, 5), HEADER, block_ticks=16)
+
+    def go_on(first: int, rows: Floats) -> None:
+        for tick, now in enumerate(rows, first):
+            table[...] = now
+            recorder.plan(plan(tick=tick))
+            recorder.event(Event(tick, Level.INFO, Kind.MESSAGE, "X", f"tick {tick}"))
+            recorder.capture(tick)
+
+    start = recorder.mark()
+    go_on(0, values[::-1])
+    recorder.go_back(start)
+    go_on(0, values[:20])
+    middle = recorder.mark()
+    go_on(20, values[:5])
+    other = recorder.mark()
+    recorder.go_back(middle)  # and from there to one that was taken on the way that is left
+    recorder.go_back(other)
+    recorder.go_back(middle)
+    go_on(20, values[20:])
+    again, once = recorder.trace(), record(values, signals(0, 5), block_ticks=16).trace()
+    assert again == once
+    assert again.hash == once.hash
+
+
+def test_the_header_changes_where_a_recording_went_back() -> None:
+    recorder = record(tables(4), signals(0))
+    start = recorder.mark()
+    recorder.go_back(start, {"seed": 7})
+    kept = recorder.mark()
+    recorder.go_back(start, {"seed": 8})
+    recorder.go_back(kept)
+    trace = recorder.trace()
+    assert (trace.header["seed"], len(trace.ticks)) == (7, TICKS)
+
+
+def test_a_hash_that_went_back_is_that_of_a_new_run() -> None:
+    recorder = Recorder(np.zeros((ROWS, COLUMNS)), [], HEADER)
+    start = recorder.mark()
+    recorder.event(event())
+    recorder.capture(0)
+    recorder.go_back(start)
+    assert recorder.close() == Recorder(np.zeros((ROWS, COLUMNS)), [], HEADER).close()
+
+
+def test_a_recording_that_drops_rows_goes_back_too() -> None:
+    table = np.zeros((4, 1))
+    recorder = Recorder(table, signals(0), HEADER, block_ticks=2, lossless=False)
+    for tick in range(200):
+        recorder.capture(tick)
+    mark = recorder.mark()
+    recorder.capture(200)
+    recorder.go_back(mark)
+    recorder.capture(200)
+    recorder.capture(201)
+    trace = recorder.trace()
+    assert trace.ticks.tolist()[-2:] == [200, 201]
+
+
+def test_what_cannot_go_back_is_refused(tmp_path: Path) -> None:
+    recorder = record(tables(), signals(0), tmp_path / "x.trace")
+    mark = recorder.mark()
+    with pytest.raises(TraceError, match=r"x\.trace: a trace that is written to a file cannot go back"):
+        recorder.go_back(mark)
+    assert len(recorder.trace().ticks) == TICKS
+    closed = record(tables(), signals(0))
+    closed.close()
+    for action in (closed.mark, lambda: closed.go_back(mark)):
+        with pytest.raises(ValueError, match="closed"):
+            action()
+
+
+def test_inputs_are_kept_and_no_part_of_the_hash() -> None:
+    recorder = Recorder(np.zeros((4, 1)), signals(0), HEADER)
+    recorder.input(received(0))
+    recorder.input(received(3, b""))
+    assert recorder.trace().inputs == (received(0), received(3, b""))
+    assert recorder.trace().hash == Recorder(np.zeros((4, 1)), [], HEADER).close()
+
+
 def test_quantised_signals_do_not_touch_the_hash() -> None:
     values = tables()
     coarse = [Signal("axis.0", "mm", 0, 0.5)]
@@ -214,6 +297,31 @@ def test_a_full_disk_surfaces_in_the_cycle_and_does_not_hang(tmp_path: Path) -> 
     assert not trace.complete
     assert len(trace.ticks) > 100
     assert trace["axis.0"].tolist() == trace.ticks.tolist()
+
+
+@pytest.mark.usefixtures("_small_files")
+def test_a_full_disk_in_real_time_is_one_message_and_the_run_goes_on(tmp_path: Path) -> None:
+    path, told = tmp_path / "x.trace", list[str]()
+    table = np.zeros((4, 1))
+    recorder = Recorder(table, signals(0), HEADER, path, block_ticks=16, lossless=False, warn=told.append)
+    tick = 0
+    while not any("has ended" in text for text in told):
+        table[0, 0] = tick
+        recorder.capture(tick)
+        tick += 1
+    for later in range(tick, tick + 1000):
+        recorder.capture(later)
+    (ended,) = [text for text in told if "has ended" in text]
+    assert ended == (
+        f"the run goes on, its trace has ended: {path}: the trace cannot be written: File too large; "
+        "free space or name another file with --trace"
+    )
+    with pytest.raises(TraceError, match="File too large"):
+        recorder.close()
+    trace = Trace.load(path)
+    assert (trace.complete, trace.damage, trace.hash) == (False, "", "")
+    assert trace["axis.0"].tolist() == trace.ticks.tolist()
+    assert len(trace.ticks) > 100
 
 
 @pytest.mark.usefixtures("_small_files")

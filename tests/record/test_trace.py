@@ -7,10 +7,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from motionlayer.record import Plan, Signal, Trace, TraceError, TraceWriter
+from motionlayer.event import Input
+from motionlayer.record import Gap, Plan, Signal, Trace, TraceError, TraceWriter
 from motionlayer.record._container import CHUNK_HEAD
 
-from .samples import Floats, event, gantry, header, plan, write
+from .samples import Floats, event, gantry, header, plan, received, write
 
 NAMES = ["X.set_position", "X.set_velocity", "Y.set_position"]
 SHAPES = st.tuples(st.integers(1, 40), st.just(len(NAMES)))
@@ -96,10 +97,31 @@ def test_file_and_memory_hold_the_same_bytes(tmp_path: Path) -> None:
     assert path.read_bytes() == b"".join(write(block, NAMES).chunks)
 
 
-def test_plans_and_events_come_back() -> None:
+def test_plans_events_inputs_and_gaps_come_back() -> None:
     trace = Trace.from_chunks(write(np.zeros((20, 3)), NAMES, size=7).chunks)
     assert trace.plans == tuple(plan(tick=n, pieces=np.full((2, 5), n + 0.1)) for n in (0, 7, 14))
     assert trace.events == tuple(event(n) for n in (0, 7, 14))
+    assert trace.inputs == tuple(received(n) for n in (0, 7, 14))
+    assert trace.gaps == tuple(Gap(n, 0, 2) for n in (0, 7, 14))
+
+
+@settings(max_examples=100, deadline=None)
+@given(tick=st.integers(-(2**63), 2**63 - 1), channel=st.text(max_size=20), payload=st.binary(max_size=300))
+def test_inputs_are_any_bytes_on_any_channel(tick: int, channel: str, payload: bytes) -> None:
+    writer = TraceWriter(None, header(["X"]))
+    writer.input(Input(tick, channel, payload))
+    assert Trace.from_chunks(writer.chunks).inputs == (Input(tick, channel, payload),)
+
+
+@pytest.mark.parametrize("other", [Input(1, "c", b"p"), Input(0, "d", b"p"), Input(0, "c", b"q"), Input(0, "", b"cp")])
+def test_traces_differ_by_one_field_of_an_input(other: Input) -> None:
+    def trace(what: Input) -> Trace:
+        writer = TraceWriter(None, header(["X"]))
+        writer.input(what)
+        return Trace.from_chunks(writer.chunks)
+
+    assert trace(Input(0, "c", b"p")) == trace(Input(0, "c", b"p"))
+    assert trace(Input(0, "c", b"p")) != trace(other)
 
 
 def test_a_plan_differs_by_one_bit() -> None:
@@ -156,7 +178,7 @@ def test_a_trace_is_a_mapping_in_header_order() -> None:
         ("a", "mm", 1),
         ("c", "mm", 2),
     ]
-    assert repr(trace) == "<Trace in memory: 3 signals x 3 ticks of 0.001 s, 1 plans, 1 events>"
+    assert repr(trace) == "<Trace in memory: 3 signals x 3 ticks of 0.001 s, 1 plans, 1 events, 1 inputs, 1 gaps>"
     with pytest.raises(ValueError, match="read-only"):
         trace["a"][0] = 1.0
     with pytest.raises(KeyError, match="no signal 'd' in the trace"):

@@ -11,7 +11,7 @@ import numpy as np
 from motionlayer.event import Event, Kind, Level
 from motionlayer.record import Plan, Trace, TraceWriter
 
-from .planner import Floats, Limits, to_position, to_velocity
+from .planner import Floats, Limits, to_position, to_stop, to_velocity
 
 SIGNALS = (
     "set_position",
@@ -19,6 +19,7 @@ SIGNALS = (
     "set_acceleration",
     "set_jerk",
     "actual_position",
+    "lag",
     "max_velocity",
     "max_acceleration",
     "max_deceleration",
@@ -27,6 +28,8 @@ SIGNALS = (
     "software_limit_max",
     "state",
     "override",
+    "enable",
+    "ready",
 )
 DISABLED, STANDSTILL, ERRORSTOP, STOPPING, HOMING, DISCRETE, CONTINUOUS = 1, 2, 3, 4, 5, 6, 7
 DEFAULT = Limits(1000.0, 10_000.0, 12_000.0, 200_000.0)
@@ -48,6 +51,8 @@ class Bench:
     rows: list[list[float]] = field(default_factory=list)
     state: int = DISABLED
     override: float = 1.0
+    asked: bool = False
+    ready: bool = False
     tick: int = 0
     open: int = 0
 
@@ -97,8 +102,9 @@ class Bench:
 
     def enable(self) -> None:
         self.accept()
+        self.asked = True
         self.run(1)
-        self.state = STANDSTILL
+        self.state, self.ready = STANDSTILL, True
         self.run(1)
 
     def move(self, target: float) -> None:
@@ -114,13 +120,14 @@ class Bench:
     def stop(self, state: int = STOPPING) -> None:
         self.accept()
         self.state = state
-        self._plan("stop", math.nan, to_velocity(self.now, 0.0, self.limits))
+        self._plan("stop", math.nan, to_stop(self.now, self.limits))
 
     def fault(self) -> None:
+        self.events.append(Event(self.tick, Level.ERROR, Kind.MESSAGE, self.name, "", 0x4550, 0))
         if self.open:
             self.event(Kind.ERROR)
         self.open, self.state = 0, ERRORSTOP
-        self._plan("stop", math.nan, to_velocity(self.now, 0.0, self.limits))
+        self._plan("stop", math.nan, to_stop(self.now, self.limits))
 
     def home(self, position: float) -> None:
         self.accept()
@@ -129,10 +136,15 @@ class Bench:
         self.now = (position, 0.0, 0.0)
 
     def run(self, ticks: int | None = None) -> None:
-        """Go on for some ticks, or until the axis has come to its target."""
+        """Go on for some ticks, or until the axis has come to its target or velocity."""
         end = math.inf if ticks is None else self.tick + ticks
-        while self.tick < end and (ticks is not None or self.open):
+        while self.tick < end and (ticks is not None or (self.open and not self.in_velocity)):
             self._step()
+
+    @property
+    def in_velocity(self) -> bool:
+        plan = self.plans[-1]
+        return plan.kind == "velocity" and (self.tick - plan.tick) * self.dt > plan.pieces[-1, 0]
 
     def _step(self) -> None:
         plan = self.plans[-1]
@@ -141,7 +153,8 @@ class Bench:
         limits = (plan.velocity, plan.acceleration, plan.deceleration, plan.jerk)
         soft = (-math.inf if low is None else low, math.inf if high is None else high)
         jerk = (a - self.before) / self.dt
-        self.rows.append([p, v, a, jerk, p, *limits, *soft, float(self.state), self.override])
+        power = (float(self.asked), float(self.ready))
+        self.rows.append([p, v, a, jerk, p, 0.0, *limits, *soft, float(self.state), self.override, *power])
         self.before = a
         time = (self.tick + 1 - plan.tick) * self.dt
         k = int(np.searchsorted(plan.pieces[:, 0], time, side="right")) - 1
@@ -152,7 +165,7 @@ class Bench:
             v + s * (a + s * (0.5 * j)),
             a + s * j,
         )
-        over = plan.command in {0, self.open} and k == len(plan.pieces) - 1
+        over = plan.command in {0, self.open} and k == len(plan.pieces) - 1 and plan.kind != "velocity"
         if over and self.state != DISABLED:
             self.finish()
             if self.state in {DISCRETE, STOPPING, HOMING}:

@@ -87,6 +87,27 @@ def to_velocity(start: tuple[float, float, float], target: float, limits: Limits
     return np.array(pieces)
 
 
+def to_stop(start: tuple[float, float, float], limits: Limits) -> Floats:
+    """Plan the shortest stop: with the brakes already on they are kept on."""
+    p, v, a = start
+    sign = math.copysign(1.0, v if v != 0.0 else a)
+    speed, pull = sign * v, -sign * a
+    jerk, most = limits.jerk, limits.deceleration
+    if pull <= 0.0 or pull * pull > 2.0 * jerk * speed:
+        return to_velocity(start, 0.0, limits)
+    phases: Phases = []
+    if pull > most:
+        t = (pull - most) / jerk
+        phases.append((t, sign * jerk))
+        speed, pull = speed - t * (pull + most) / 2.0, most
+    peak = min(most, math.sqrt(jerk * speed + pull * pull / 2.0))
+    hold = (speed - (2.0 * peak * peak - pull * pull) / (2.0 * jerk)) / peak
+    phases += [((peak - pull) / jerk, -sign * jerk), (max(hold, 0.0), 0.0), (peak / jerk, sign * jerk)]
+    pieces = roll((p, v, a), phases)
+    pieces[-1][2:4] = 0.0, 0.0
+    return np.array(pieces)
+
+
 def to_position(start: tuple[float, float, float], target: float, limits: Limits) -> Floats:
     """Plan to a position: from motion, by way of a stop."""
     pieces = to_velocity(start, 0.0, limits).tolist()

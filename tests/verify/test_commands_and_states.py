@@ -30,6 +30,8 @@ def test_a_missing_event_is_found(index: int) -> None:
 @pytest.mark.parametrize("index", EVENTS)
 def test_a_doubled_event_is_found(index: int) -> None:
     events = recorded("mm").events
+    if events[index].kind == Kind.MESSAGE:
+        return  # it can be said twice
     assert _rules(changed(recorded("mm"), events=events[: index + 1] + events[index:])) == {"command life"}
 
 
@@ -100,20 +102,21 @@ def test_a_coordinate_is_not_redefined_in_motion_states() -> None:
 
 
 SEQUENCES = [
-    ([DISABLED, STANDSTILL], True),
-    ([DISABLED, DISCRETE], True),
-    ([DISABLED, ERRORSTOP, DISABLED], True),
-    ([STANDSTILL, DISCRETE, STANDSTILL], True),
-    ([STANDSTILL, STOPPING, STANDSTILL], True),
-    ([STANDSTILL, CONTINUOUS, STANDSTILL], False),
-    ([ERRORSTOP, STANDSTILL], True),
-    ([ERRORSTOP, DISCRETE], True),
-    ([STOPPING, CONTINUOUS], True),
+    [DISABLED, STANDSTILL],
+    [DISABLED, DISCRETE],
+    [DISABLED, ERRORSTOP, DISABLED],
+    [STANDSTILL, DISCRETE, STANDSTILL],
+    [STANDSTILL, STOPPING, STANDSTILL],
+    [STANDSTILL, CONTINUOUS, STANDSTILL],
+    [ERRORSTOP, STANDSTILL],
+    [ERRORSTOP, DISCRETE],
+    [STOPPING, CONTINUOUS],
 ]
 
 
-@pytest.mark.parametrize(("states", "legal"), SEQUENCES)
-def test_order_of_states_at_rest(states: list[int], *, legal: bool) -> None:
+@pytest.mark.parametrize("states", SEQUENCES)
+def test_order_of_states_at_rest(states: list[int]) -> None:
+    """Commands take no time: at rest any state may follow in the next row, and what caused it is asked by itself."""
     bench = Bench()
     bench.accept()
     for state in [*([] if states[0] == DISABLED else [DISABLED, STANDSTILL]), *states]:
@@ -121,15 +124,15 @@ def test_order_of_states_at_rest(states: list[int], *, legal: bool) -> None:
         bench._step()
         bench.open = 1
     trace = changed(bench.trace(), events=(Event(0, Level.INFO, Kind.ACCEPTED, "X", "", 0, 1),))
-    assert ("state order" in _rules(trace)) is not legal
+    assert "state order" not in _rules(trace)
 
 
 def test_a_state_change_without_a_command_is_found() -> None:
     bench = Bench()
     bench.run(2)
-    bench.state = STANDSTILL
+    bench.state, bench.asked, bench.ready = STANDSTILL, True, True
     bench.run(2)
-    assert _rules(bench.trace()) == {"state cause"}
+    assert _rules(bench.trace()) == {"state cause", "power"}
 
 
 def test_motion_that_does_not_fit_the_state_is_found() -> None:

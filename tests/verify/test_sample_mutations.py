@@ -11,7 +11,8 @@ from motionlayer.verify import assert_valid, tolerance, verify
 from .bench import SIGNALS
 from .scenarios import SIZES, axis, quantised, recorded
 
-NUMBERS = [signal for signal in SIGNALS if signal not in {"state", "override", "software_limit_max"}]
+EXACT = {"lag", "state", "override", "enable", "ready"}  # of an ideal drive
+NUMBERS = [signal for signal in SIGNALS if signal not in {*EXACT, "software_limit_max"}]
 FACTORS = st.floats(1.001, 6.0).map(lambda power: 10.0**power)
 
 
@@ -61,7 +62,8 @@ def test_an_override_beyond_its_range_is_found(override: float) -> None:
     values = trace["X.override"].copy()
     values[50] = override
     report = verify(trace.replace({"X.override": values}))
-    assert [(finding.rule, finding.tick) for finding in report.findings] == [("override", 50)]
+    assert {(finding.rule, finding.tick) for finding in report.findings} >= {("override", 50)}
+    assert {finding.rule for finding in report.findings} == {"override"}
 
 
 @pytest.mark.parametrize("size", SIZES)

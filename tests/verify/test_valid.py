@@ -129,7 +129,7 @@ def test_a_plan_recorded_again_on_its_way_is_valid() -> None:
 
 def test_a_plan_that_takes_over_inside_a_cycle_is_valid() -> None:
     trace = recorded("mm")
-    plan, k = trace.plans[1], 2
+    plan, k = trace.plans[1], len(trace.plans[1].pieces) - 1  # where it comes to its end, and nowhere else
     time = float(plan.pieces[k, 0])
     cycles = int(time / trace.base_cycle)
     rest = plan.pieces[k:] - [time, 0.0, 0.0, 0.0, 0.0]

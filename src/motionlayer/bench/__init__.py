@@ -7,8 +7,8 @@ there is one, the peer. How numbers come about:
   microseconds. One call is timed as it is, with everything it does.
 - The command: `python -m motionlayer ...` in a process of its own, from its start until it has ended; nothing is
   subtracted. The median of several.
-- Recording runs in two threads. What counts is the processor time of the cycle thread; the wall time, which in a
-  simulation includes waiting for the writer, is told in a note.
+- Recording runs in two threads. What counts for the cycle is the processor time of its thread; the wall time, which
+  in a simulation includes waiting for the writer, is told in a note. The share of a core counts both threads.
 - Numbers that must hold rather than be quick (`numerics`) are the worst of many random cases, made from a seed.
 - Peers are packages from PyPI in pinned versions. They live in an environment of their own in the user's cache
   folder, set up on first use. A peer that cannot be had leaves its cell empty.

@@ -38,12 +38,13 @@ async def main(run):
 '''
 
 
-def seconds(*arguments: str | Path, cache: Path | None = None) -> float:
+def seconds(*arguments: str | Path, cache: Path | None = None, patience: float = PATIENCE) -> float:
     """Return how long the command takes, from the start of the process until it has ended.
 
     Args:
         arguments: of `motionlayer`.
         cache: folder of compiled kernels; the user's where left out.
+        patience: seconds after which it is taken to hang.
 
     Raises:
         Failed: its exit code is not 0, or it hangs.
@@ -53,10 +54,10 @@ def seconds(*arguments: str | Path, cache: Path | None = None) -> float:
     start = perf_counter()
     try:
         ended = subprocess.run(  # noqa: S603 - our own command
-            command, env=environment, capture_output=True, text=True, timeout=PATIENCE, check=False
+            command, env=environment, capture_output=True, text=True, timeout=patience, check=False
         )
     except subprocess.TimeoutExpired:
-        raise Failed(f"motionlayer {arguments[0]} has not ended after {PATIENCE:g} s") from None
+        raise Failed(f"motionlayer {arguments[0]} has not ended after {patience:g} s") from None
     taken = perf_counter() - start
     if ended.returncode:
         last = (ended.stderr.strip() or ended.stdout.strip() or "no message").splitlines()[-1]

@@ -8,12 +8,17 @@ from pathlib import Path
 from typing import Final
 
 from motionlayer import __version__, _kernel
-from motionlayer.bench import _core, _history, _numerics, _peers, _report, _scaling
+from motionlayer.bench import _axis, _core, _history, _numerics, _peers, _report, _runtime, _scaling
 from motionlayer.bench._environment import tell
 from motionlayer.bench._report import Result
 from motionlayer.bench._row import Effort, Failed, Row, Skipped
 
-GROUPS: Final[dict[str, tuple[Row, ...]]] = {"core": _core.ROWS, "numerics": _numerics.ROWS}
+GROUPS: Final[dict[str, tuple[Row, ...]]] = {
+    "core": _core.ROWS,
+    "axis": _axis.ROWS,
+    "numerics": _numerics.ROWS,
+    "runtime": _runtime.ROWS,
+}
 
 FINE: Final = 0
 FAILED: Final = 1

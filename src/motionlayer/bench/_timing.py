@@ -23,8 +23,8 @@ def quiet() -> Iterator[None]:
             gc.enable()
 
 
-def median_us(action: Callable[[], object], samples: int, *, between: Callable[[], object] | None = None) -> float:
-    """Return the median time of one call of `action` in microseconds.
+def times_us(action: Callable[[], object], samples: int, *, between: Callable[[], object] | None = None) -> list[float]:
+    """Return the time of every call of `action` in microseconds.
 
     Args:
         action: what is timed.
@@ -39,4 +39,9 @@ def median_us(action: Callable[[], object], samples: int, *, between: Callable[[
             times.append(perf_counter_ns() - start)
             if between is not None:
                 between()
-    return statistics.median(times[-samples:]) / 1e3
+    return [time / 1e3 for time in times[-samples:]]
+
+
+def median_us(action: Callable[[], object], samples: int, *, between: Callable[[], object] | None = None) -> float:
+    """Return the median time of one call of `action` in microseconds; the arguments are those of `times_us`."""
+    return statistics.median(times_us(action, samples, between=between))

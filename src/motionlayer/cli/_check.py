@@ -4,6 +4,8 @@ from pathlib import Path
 
 import click
 
+from motionlayer.cli._exit import say
+
 
 @click.command(short_help="Check a machine file.")
 @click.argument("machine", type=click.Path(path_type=Path))
@@ -16,7 +18,7 @@ def check(machine: Path) -> None:
 
     description = load_machine(machine).description
     axes, programs = list(description.axis), list(description.program)
-    click.echo(f"{machine}: valid: {description.name}, axes: {_names(axes)}; programs: {_names(programs)}")
+    say(f"{machine}: valid: {description.name}, axes: {_names(axes)}; programs: {_names(programs)}")
 
 
 def _names(names: list[str]) -> str:

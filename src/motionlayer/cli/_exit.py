@@ -1,4 +1,4 @@
-"""How a command ends: `ExitCode`, and `Stop` to end with one."""
+"""How a command ends: `ExitCode`, `Stop` to end with one, and what it says on stdout and stderr."""
 
 import enum
 from typing import Self
@@ -22,8 +22,10 @@ class ExitCode(enum.IntEnum):
     USAGE = 2, "the command line or an environment variable is wrong"
     STUCK = 3, "a program did not yield; the run was ended"
     FAULT = 4, "a fault of motionlayer itself; please report it"
-    TRACE = 5, "a trace or a page cannot be read, judged or written"
+    TRACE = 5, "a trace, a page or another output cannot be read, judged or written"
+    HUNG_UP = 129, "the terminal was closed (SIGHUP)"
     INTERRUPTED = 130, "interrupted (Ctrl-C)"
+    TERMINATED = 143, "terminated (SIGTERM)"
 
 
 class Stop(Exception):  # noqa: N818 - not every end is an error
@@ -32,6 +34,21 @@ class Stop(Exception):  # noqa: N818 - not every end is an error
     def __init__(self, code: ExitCode, message: str) -> None:
         super().__init__(message)
         self.code = code
+
+
+def say(text: str) -> None:
+    """Write a result to stdout.
+
+    Raises:
+        Stop: stdout is a file that cannot be written, on a full disk for one.
+        BrokenPipeError: nobody reads it any more; click ends the command without a word.
+    """
+    try:
+        click.echo(text)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise Stop(ExitCode.TRACE, f"stdout cannot be written: {error.strerror}; redirect it elsewhere") from error
 
 
 def complain(message: str) -> None:

@@ -1,23 +1,29 @@
 """Files that commands read and write; each error becomes a `Stop` with its exit code."""
 
+import warnings
 from collections.abc import Iterable
 from pathlib import Path
 
 import click
 
 from motionlayer.cli._exit import ExitCode, Stop
-from motionlayer.machine import Machine, MachineError
+from motionlayer.machine import Machine, MachineError, OldName
 from motionlayer.record import Trace, TraceError
 
 
 def load_machine(path: Path) -> Machine:
-    """Read and check a machine file."""
+    """Read and check a machine file; names that it should not use any more are warnings."""
     try:
-        return Machine.load(path)
+        with warnings.catch_warnings(record=True) as old:
+            warnings.simplefilter("always", OldName)
+            machine = Machine.load(path)
     except MachineError as error:
         count = len(error.findings)
         problems = f"{count} problems" if count > 1 else "a problem"
         raise Stop(ExitCode.FAILED, f"{problems} in the machine file\n{error}") from error
+    for one in old:
+        click.echo(f"Warning: {one.message}", err=True)
+    return machine
 
 
 def load_trace(path: Path) -> Trace:

@@ -8,9 +8,14 @@ import click
 from motionlayer import __version__
 from motionlayer.cli._bench import bench
 from motionlayer.cli._check import check
+from motionlayer.cli._error import error
 from motionlayer.cli._exit import ExitCode, Stop, complain, exit_codes
+from motionlayer.cli._new import new
 from motionlayer.cli._plot import plot
+from motionlayer.cli._replay import replay
 from motionlayer.cli._run import run
+from motionlayer.cli._schema import schema
+from motionlayer.cli._soak import soak
 from motionlayer.cli._verify import verify
 
 
@@ -48,7 +53,7 @@ def group() -> None:
     """Motion runtime: axes planned, sampled, recorded and checked."""
 
 
-for _command in (check, run, verify, plot, bench):
+for _command in (new, check, run, verify, plot, replay, soak, bench, schema, error):
     group.add_command(_command)
 
 

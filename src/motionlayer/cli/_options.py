@@ -8,6 +8,13 @@ import click
 
 PAGE_SUFFIXES: Final = (".html", ".htm")
 
+SLOWEST: Final = 0.01
+FASTEST: Final = 1000.0
+"""Bounds of the speed: those of `motionlayer.runtime`, which the help does without."""
+
+LEVELS: Final = ("error", "warning", "info", "verbose", "sentient")
+"""Levels of message files."""
+
 
 class Options(NamedTuple):
     """What `motionlayer run` was asked for.
@@ -21,6 +28,11 @@ class Options(NamedTuple):
         hash: take the hash of the run.
         plot: file for the page.
         patience: s of wall time until a program counts as stuck.
+        realtime: in the time of a clock.
+        speed: times real time; only with `realtime`.
+        statistics: measure what the ticks cost.
+        log: root folder of the message files, in the place of that of the machine file.
+        log_level: in the place of that of the machine file.
     """
 
     machine: Path
@@ -31,12 +43,24 @@ class Options(NamedTuple):
     hash: bool
     plot: Path | None
     patience: float | None
+    realtime: bool
+    speed: float | None
+    statistics: bool
+    log: Path | None
+    log_level: str | None
 
 
 def seconds(_context: click.Context, _option: click.Parameter, value: float | None) -> float | None:
     """Return a time that is finite and more than nothing."""
     if value is not None and not 0.0 < value < math.inf:
         raise click.BadParameter(f"{value:g} must be finite and greater than 0 (s)")
+    return value
+
+
+def speed(_context: click.Context, _option: click.Parameter, value: float | None) -> float | None:
+    """Return a speed that a clock can pace."""
+    if value is not None and not SLOWEST <= value <= FASTEST:
+        raise click.BadParameter(f"{value:g} must be {SLOWEST:g} to {FASTEST:g} (times real time)")
     return value
 
 

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import click
 
+from motionlayer.cli._exit import say
 from motionlayer.cli._options import page
 
 
@@ -25,7 +26,10 @@ def plot(trace: Path, output: Path | None) -> None:
     refuse_overwriting([target], [trace])
     loaded = load_trace(trace)
     draw(loaded, target)
-    click.echo(f"plot        {target}")
+    say(f"plot        {target}")
     if not loaded.complete:
         what = f"damaged: {loaded.damage}" if loaded.damage else "incomplete, its writer was cut short"
         click.echo(f"Warning: {trace} is {what}; the page shows what was read", err=True)
+    if loaded.gaps:
+        missing = sum(gap.ticks for gap in loaded.gaps)
+        click.echo(f"Warning: {trace} lacks {missing} ticks from tick {loaded.gaps[0].first} on", err=True)

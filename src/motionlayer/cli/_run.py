@@ -4,15 +4,15 @@ from pathlib import Path
 
 import click
 
-from motionlayer.cli._options import Options, page, seconds
+from motionlayer.cli._options import LEVELS, Options, page, seconds, speed
 
 
-@click.command(short_help="Run a machine in simulation.")
+@click.command(short_help="Run a machine, in simulation or in real time.")
 @click.argument("machine", type=click.Path(path_type=Path))
 @click.option(
     "--program",
     metavar="FILE[:NAME]",
-    help="Run `async def NAME(run)` of FILE in the place of the programs of MACHINE.  [NAME: main]",
+    help="Run the function NAME of FILE in the place of the programs of MACHINE.  [NAME: main]",
 )
 @click.option(
     "--time", type=float, callback=seconds, metavar="S", help="End after S seconds of the run, at the latest."
@@ -34,11 +34,31 @@ from motionlayer.cli._options import Options, page, seconds
     type=float,
     callback=seconds,
     metavar="S",
-    help="Seconds of wall time after which a program that does not yield ends the run.  [10]",
+    help="Seconds of wall time after which a program that does not yield ends the run.  [10], in real time [1]",
 )
+@click.option(
+    "--log",
+    type=click.Path(path_type=Path, file_okay=False),
+    metavar="DIR",
+    help="Write message files into DIR, in the place of the one of MACHINE.",
+)
+@click.option(
+    "--log-level",
+    type=click.Choice(LEVELS),
+    help="What is written beside errors, in the place of the level of MACHINE.  [info]",
+)
+@click.option("--realtime", is_flag=True, help="Run in the time of a clock.")
+@click.option(
+    "--speed",
+    type=float,
+    callback=speed,
+    metavar="X",
+    help="With --realtime: X times as fast as real time, 0.01 to 1000.  [1]",
+)
+@click.option("--statistics", is_flag=True, help="Measure what the ticks cost; --realtime always does.")
 @click.pass_context
 def run(ctx: click.Context, /, **options: object) -> None:
-    """Run the programs of MACHINE, as fast as the computer allows.
+    """Run the programs of MACHINE, as fast as the computer allows, or with --realtime in the time of a clock.
 
     The run ends when all programs have ended or its time is over. With --trace or --hash the last line is the hash
     of the run: the same machine, program and seed give the same hash.

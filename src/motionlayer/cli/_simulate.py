@@ -8,23 +8,27 @@ import time
 import traceback
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Final, NamedTuple, NoReturn
+from typing import Any, Final, NamedTuple, NoReturn
 
 import click
 
 from motionlayer import _kernel
-from motionlayer.cli._exit import ExitCode, Stop, complain
+from motionlayer.cli._exit import ExitCode, Stop, complain, say
 from motionlayer.cli._failure import place, program_failure
 from motionlayer.cli._files import draw, load_machine, refuse_overwriting
-from motionlayer.cli._interrupt import orderly
+from motionlayer.cli._interrupt import Interrupts, orderly
+from motionlayer.cli._log import log_of, losses, warn
 from motionlayer.cli._options import Options
 from motionlayer.cli._progress import Progress
 from motionlayer.cli._summary import lines_of, summary
 from motionlayer.cli._tally import Tally
 from motionlayer.machine import (
+    REALTIME_PATIENCE,
     Loaded,
     Machine,
+    MachineRun,
     ProgramError,
+    RealTime,
     Simulation,
     Source,
     load_program,
@@ -32,6 +36,7 @@ from motionlayer.machine import (
     sources_of,
 )
 from motionlayer.record import TraceError
+from motionlayer.record.log import LogError
 from motionlayer.runtime import PATIENCE, CycleFault, ProgramStuck
 
 MOST_FAILURES: Final = 5
@@ -50,7 +55,7 @@ def simulate(options: Options) -> ExitCode:
     machine = load_machine(options.machine)
     sources = _sources(machine, options)
     refuse_overwriting([options.trace, options.plot], [options.machine, *(source.file for source in sources)])
-    run = _simulation(machine, _load(sources), options)
+    run = _made(machine, _load(sources, options), options)
     tally = Tally()
     run.events.listen(tally)
     started = time.perf_counter()
@@ -63,9 +68,9 @@ def simulate(options: Options) -> ExitCode:
     for problem in problems:
         complain(problem.text)
     for line in [*summary(run, tally, wall, options), *lines_of("plot", drawn)]:
-        click.echo(line)
+        say(line)
     if digest and (options.trace or options.hash):
-        click.echo(f"trace hash: {digest}")
+        say(f"trace hash: {digest}")
     if problems:
         return problems[0].code
     with contextlib.suppress(OSError):  # then the next start says once more that it compiles
@@ -74,6 +79,8 @@ def simulate(options: Options) -> ExitCode:
 
 
 def _sources(machine: Machine, options: Options) -> list[Source]:
+    if options.speed is not None and not options.realtime:
+        raise click.UsageError("--speed is that of a clock: give --realtime as well")
     sources = [parse_source(options.program)] if options.program else sources_of(machine)
     if not sources and options.time is None:
         raise click.UsageError(
@@ -82,51 +89,62 @@ def _sources(machine: Machine, options: Options) -> list[Source]:
     return sources
 
 
-def _load(sources: Sequence[Source]) -> list[Loaded]:
+def _load(sources: Sequence[Source], options: Options) -> list[Loaded]:
     try:
-        return [load_program(source) for source in sources]
+        loaded = [load_program(source) for source in sources]
     except ProgramError as error:
         raise Stop(ExitCode.FAILED, f"{error}{place(error.__cause__)}") from error
+    cyclic = [one.name for one in loaded if one.task is not None]
+    if cyclic and options.time is None and not options.realtime:
+        raise click.UsageError(
+            f"cyclic program {cyclic[0]} goes on until it is cancelled, and the run might never end: give --time S"
+        )
+    return loaded
 
 
-def _simulation(machine: Machine, programs: list[Loaded], options: Options) -> Simulation:
+def _made(machine: Machine, programs: list[Loaded], options: Options) -> MachineRun:
     if not _kernel.is_cached():
         click.echo("compiling the kernels, once for this version; the next run starts at once", err=True)
     trace: bool | Path | None = options.trace
     if trace is None and (options.plot or options.hash):
         trace = options.plot is not None  # in memory, or the hash alone
-    patience = PATIENCE if options.patience is None else options.patience
+    patience = options.patience or (REALTIME_PATIENCE if options.realtime else PATIENCE)
+    common: dict[str, Any] = {"seed": options.seed, "trace": trace, "programs": programs, "patience": patience}
+    common["log"] = log_of(machine, options)
     try:
-        return Simulation(machine, seed=options.seed, trace=trace, programs=programs, patience=patience)
-    except TraceError as error:
+        if options.realtime:
+            return RealTime(machine, speed=options.speed or 1.0, **common)
+        return Simulation(machine, statistics=options.statistics, **common)
+    except (TraceError, LogError) as error:
         raise Stop(ExitCode.TRACE, str(error)) from error
 
 
-def _execute(run: Simulation, options: Options) -> list[Problem]:
+def _execute(run: MachineRun, options: Options) -> list[Problem]:
     """Run to the end, whichever it is; return what went wrong."""
     cycle = run.base_cycle_ns * 1e-9
     ticks = None if options.time is None else math.ceil(options.time / cycle)
     try:
-        with Progress(ticks, cycle, sys.stderr) as progress, orderly(lambda: _give_up(run)) as check:
-
-            def watch(tick: int) -> None:
-                check(tick)
-                progress(tick)
-
-            run.run(time=options.time, watch=watch)
+        with Progress(ticks, cycle, sys.stderr) as progress, orderly(run, lambda: _give_up(run)) as interrupts:
+            # In real time a terminal that does not take it would hold up the cycle.
+            run.run(time=options.time, watch=None if options.realtime else progress)
     except ProgramStuck as stuck:
         return [Problem(ExitCode.STUCK, str(stuck).rstrip())]
     except CycleFault as fault:
         return [_fault(fault)]
     except KeyboardInterrupt:
-        return [Problem(ExitCode.INTERRUPTED, f"interrupted at {run.time:.9g} s of the run")]
+        return [_interrupted(run, interrupts)]
     except SystemExit as leak:
         if not run.failures:
             return [Problem(ExitCode.FAILED, f"sys.exit() was called in a program; return instead{place(leak)}")]
-    return _failures(run)
+    return [_interrupted(run, interrupts)] if interrupts.first is not None else _failures(run)
 
 
-def _failures(run: Simulation) -> list[Problem]:
+def _interrupted(run: MachineRun, interrupts: Interrupts) -> Problem:
+    code, said = interrupts.ending
+    return Problem(code, f"{said} at {run.time:.9g} s of the run")
+
+
+def _failures(run: MachineRun) -> list[Problem]:
     texts = [program_failure(program) for program in run.failures]
     if len(texts) > MOST_FAILURES:
         texts[MOST_FAILURES:] = [f"and {len(texts) - MOST_FAILURES} more programs failed"]
@@ -142,15 +160,20 @@ def _fault(fault: CycleFault) -> Problem:
     return Problem(ExitCode.FAULT, text.rstrip())
 
 
-def _finish(run: Simulation) -> tuple[str, list[Problem]]:
-    """Close the trace; return the hash of the run."""
+def _finish(run: MachineRun) -> tuple[str, list[Problem]]:
+    """Close trace and message files; return the hash of the run."""
+    digest, problems = "", []
     try:
-        return run.close(), []
+        digest = run.close()
     except TraceError as error:
-        return "", [Problem(ExitCode.TRACE, str(error))]
+        problems.append(Problem(ExitCode.TRACE, str(error)))
+    except LogError as error:
+        problems.append(Problem(ExitCode.FAULT, str(error)))
+    warn(run)
+    return digest, problems + [Problem(ExitCode.TRACE, text) for text in losses(run)]
 
 
-def _draw(run: Simulation, page: Path | None, problems: list[Problem]) -> list[str]:
+def _draw(run: MachineRun, page: Path | None, problems: list[Problem]) -> list[str]:
     """Draw what was recorded, also of a run that failed; return the page if it was written."""
     if page is None or any(problem.code is ExitCode.TRACE for problem in problems):
         return []
@@ -162,9 +185,9 @@ def _draw(run: Simulation, page: Path | None, problems: list[Problem]) -> list[s
     return [str(page)]
 
 
-def _give_up(run: Simulation) -> NoReturn:
+def _give_up(run: MachineRun) -> NoReturn:
     """End the process: a program swallows every interrupt, so that nothing else ends it."""
-    with contextlib.suppress(TraceError):
+    with contextlib.suppress(TraceError, LogError):
         run.close()
     complain("a program does not yield and swallows interrupts (`except:` or `except BaseException`); ended here")
     sys.stdout.flush()

@@ -3,30 +3,54 @@
 from collections.abc import Iterator, Sequence
 from typing import Final
 
+from motionlayer.cli._distribution import histogram, overruns, slowest, spread, task
 from motionlayer.cli._options import Options
 from motionlayer.cli._tally import Tally
 from motionlayer.event import Level
-from motionlayer.machine import Simulation
+from motionlayer.machine import MachineRun, RealTime
 
 MOST: Final = 8
 """Axes and programs that are listed one by one."""
 
 
-def summary(run: Simulation, tally: Tally, wall: float, options: Options) -> Iterator[str]:
+def summary(run: MachineRun, tally: Tally, wall: float, options: Options) -> Iterator[str]:
     """Yield the lines of the summary, without the hash; `wall` in seconds."""
     cycle = run.base_cycle_ns * 1e-9
     factor = f", {run.time / wall:.3g} x real time" if wall > 0.0 else ""
     facts = [
         ("machine", [run.machine.name]),
-        ("simulated", [f"{run.time:.9g} s in {run.tick} ticks of {cycle * 1e3:.9g} ms"]),
+        (
+            "real time" if options.realtime else "simulated",
+            [f"{run.time:.9g} s in {run.tick} ticks of {cycle * 1e3:.9g} ms"],
+        ),
         ("wall time", [f"{wall:.3g} s{factor}"]),
+        *_measured(run, options),
         ("axes", _shortened(_axes(run))),
         ("programs", _shortened(_programs(tally))),
         ("messages", list(_messages(tally, cycle))),
         ("trace", [str(options.trace)] if options.trace else []),
+        ("log", [str(run.log.folder)] if run.log.folder else []),
     ]
     for name, lines in facts:
         yield from lines_of(name, lines)
+
+
+def _measured(run: MachineRun, options: Options) -> Iterator[tuple[str, list[str]]]:
+    """Yield what the ticks have cost and how late they were, where it was measured."""
+    if not options.realtime and not options.statistics:
+        return
+    found = run.statistics
+    columns = {"compute": found.compute, "lateness": found.lateness}
+    if not options.realtime:
+        del columns["lateness"]
+    for name, one in columns.items():
+        yield name, [spread(one.spread)]
+    yield "histogram", list(histogram(columns))
+    yield "slowest", [slowest(found)]
+    yield "tasks", [task(one) for one in run.tasks.values() if one.compute.count]
+    if isinstance(run, RealTime):
+        yield "overruns", [overruns(found)]
+        yield "refused", run.refused
 
 
 def lines_of(name: str, lines: Sequence[str]) -> Iterator[str]:
@@ -35,7 +59,7 @@ def lines_of(name: str, lines: Sequence[str]) -> Iterator[str]:
         yield f"{name if index == 0 else '':<11} {line}"
 
 
-def _axes(run: Simulation) -> list[str]:
+def _axes(run: MachineRun) -> list[str]:
     units = run.machine.description.axis
     return [
         f"{name} at {axis.set_position:.9g} {units[name].unit}, {axis.state.name.lower().replace('_', ' ')}"
@@ -50,11 +74,15 @@ def _programs(tally: Tally) -> list[str]:
 def _messages(tally: Tally, cycle: float) -> Iterator[str]:
     if not tally.last:
         return
-    counts = [f"{tally.levels[level]} {level.name.lower()}s" for level in (Level.ERROR, Level.WARNING)]
+    counts = [_counted(tally.levels[level], level.name.lower()) for level in (Level.ERROR, Level.WARNING)]
     shown = f"; the last {len(tally.last)}:" if tally.levels.total() > len(tally.last) else ":"
     yield ", ".join(counts) + shown
     for event in tally.last:
         yield f"  {event.tick * cycle:.6f} s  {event.level.name.lower()}  {event.source}: {event.text}"
+
+
+def _counted(number: int, what: str) -> str:
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"
 
 
 def _shortened(lines: list[str]) -> list[str]:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from motionlayer.cli._exit import ExitCode, complain
+from motionlayer.cli._exit import ExitCode, complain, say
 
 
 @click.command(short_help="Judge a trace.")
@@ -20,7 +20,7 @@ def verify(ctx: click.Context, trace: Path, *, partial: bool) -> None:
     from motionlayer.verify import verify as judge  # noqa: PLC0415
 
     report = judge(load_trace(trace))
-    click.echo(str(report))
+    say(str(report))
     if report.findings:
         ctx.exit(ExitCode.FAILED)
     if report.refused:

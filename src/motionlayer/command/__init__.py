@@ -14,18 +14,21 @@ from motionlayer.command._command import (
     all_of,
     any_of,
 )
-from motionlayer.command._errors import ERRORS, ErrorId, ErrorText
+from motionlayer.command._errors import ERRORS, RANGES, ErrorId, ErrorRange, ErrorText, range_of
 
 __all__ = [
     "ERRORS",
+    "RANGES",
     "Command",
     "CommandAborted",
     "CommandError",
     "ErrorId",
+    "ErrorRange",
     "ErrorText",
     "Ledger",
     "MotionError",
     "ObjectInfo",
     "all_of",
     "any_of",
+    "range_of",
 ]

@@ -33,7 +33,7 @@ class MotionError:
     @property
     def text(self) -> str:
         """What happened and the way out, without the source."""
-        text, advice = ERRORS[self.id]
+        text, advice, _ = ERRORS[self.id]
         detail = f" ({self.detail})" if self.detail else ""
         return f"{text}{detail} [0x{self.id:04X}]; {advice}"
 
@@ -65,13 +65,16 @@ class Ledger:
     Attributes:
         tick: the tick being worked on.
         issuer: the program that runs now, None outside programs.
+        turn: number of the turn of the task whose programs run now, the tick outside tasks; so it goes up by one from
+            one call of a cyclic program to the next.
     """
 
-    __slots__ = ("_last", "issuer", "tick")
+    __slots__ = ("_last", "issuer", "tick", "turn")
 
     def __init__(self) -> None:
         self.tick = 0
         self.issuer: Command[Any] | None = None
+        self.turn = 0
         self._last = 0
 
     def number(self) -> int:

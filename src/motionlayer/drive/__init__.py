@@ -7,6 +7,17 @@ knows nothing of axes.
 
 from motionlayer.drive._fault import FAULTS, Fault, FaultKind
 from motionlayer.drive._ideal import IdealDrives, ReferenceSwitch
+from motionlayer.drive._pulse import ZeroPulse, ZeroPulses
 from motionlayer.drive._servo import Servo, ServoDrives
 
-__all__ = ["FAULTS", "Fault", "FaultKind", "IdealDrives", "ReferenceSwitch", "Servo", "ServoDrives"]
+__all__ = [
+    "FAULTS",
+    "Fault",
+    "FaultKind",
+    "IdealDrives",
+    "ReferenceSwitch",
+    "Servo",
+    "ServoDrives",
+    "ZeroPulse",
+    "ZeroPulses",
+]

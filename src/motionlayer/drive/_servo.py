@@ -109,7 +109,9 @@ class ServoDrives:
         here = store.table[Q.ACTUAL_P, self._columns]
         self.states[[State.X, State.LOAD, State.REPORTED, State.DELAYED_P]] = here
         self._delays = np.array([servo.dead_time for servo in servos], dtype=np.int64)
-        self._keys = np.array([key_of(seed, servo.name) for servo in servos], dtype=np.int64).reshape(-1, 2).T.copy()
+        self._names = [servo.name for servo in servos]
+        self._keys = np.zeros((2, len(servos)), dtype=np.int64)
+        self.reseed(seed)
         slots = 1 + max((servo.dead_time for servo in servos), default=0)
         self._ring_p: Floats = np.tile(here, (slots, 1))
         self._ring_v: Floats = np.zeros((slots, len(servos)))
@@ -118,6 +120,11 @@ class ServoDrives:
         self._agenda = Agenda()
         for column, servo in zip(columns, servos, strict=True):
             _set_switch(store, column, servo.switch)
+
+    def reseed(self, seed: int) -> None:
+        """Let every drive draw from its stream of another seed from now on."""
+        if self._names:
+            self._keys.T[...] = [key_of(seed, name) for name in self._names]
 
     def inputs(self, tick: int) -> None:
         """Write actual values, status and inputs of this tick."""

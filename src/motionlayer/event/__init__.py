@@ -4,6 +4,21 @@ Every part that has something to say appends an `Event`; `record` writes them to
 the hash of a run: they hold ticks, never wall-clock time.
 """
 
+from motionlayer.event._device import BLOCK, Device, device_of
 from motionlayer.event._event import Event, EventLog, Kind, Level
+from motionlayer.event._input import Input
+from motionlayer.event._levels import Levels
+from motionlayer.event._subdevice import Subdevice
 
-__all__ = ["Event", "EventLog", "Kind", "Level"]
+__all__ = [
+    "BLOCK",
+    "Device",
+    "Event",
+    "EventLog",
+    "Input",
+    "Kind",
+    "Level",
+    "Levels",
+    "Subdevice",
+    "device_of",
+]

@@ -71,6 +71,11 @@ class EventLog:
         for listener in self._listeners:
             listener(event)
 
+    @property
+    def ring(self) -> deque[Event]:
+        """The ring itself, for who copies a run and puts it back."""
+        return self._ring
+
     def last(self, level: Level = Level.SENTIENT) -> list[Event]:
         """Return what the ring still holds, oldest first, as grave as `level` or graver."""
         return [event for event in self._ring if event.level <= level]

@@ -4,10 +4,11 @@ import math
 from typing import NamedTuple
 
 from motionlayer.command import Ledger
-from motionlayer.drive import Fault, IdealDrives, ReferenceSwitch, Servo, ServoDrives
+from motionlayer.drive import Fault, IdealDrives, ReferenceSwitch, Servo, ServoDrives, ZeroPulse, ZeroPulses
 from motionlayer.event import EventLog
 from motionlayer.machine._description import AxisDescription, Description
 from motionlayer.nc import (
+    ROW_PIECES,
     Axis,
     AxisConfig,
     AxisStage,
@@ -15,9 +16,11 @@ from motionlayer.nc import (
     GroupReaction,
     HomeConfig,
     HomingMode,
+    ManualConfig,
+    ModuloConfig,
     MonitorConfig,
 )
-from motionlayer.profile import MAX_PIECES, Limits
+from motionlayer.profile import Limits
 from motionlayer.runtime import Stage, Step
 from motionlayer.store import Q, Store
 
@@ -32,13 +35,14 @@ class Parts(NamedTuple):
     events: EventLog
     axes: dict[str, Axis]
     servos: ServoDrives
+    stage: AxisStage
     stages: list[Stage]
 
 
 def build(description: Description, seed: int = 0) -> Parts:
     """Build all parts of a machine, at rest and without power, before tick 0; noise comes from the seed."""
     entries = description.axis
-    store = Store(len(entries), dt=description.base_cycle_ns * 1e-9, max_pieces=MAX_PIECES)
+    store = Store(len(entries), dt=description.base_cycle_ns * 1e-9, max_pieces=ROW_PIECES)
     starts = [entry.start_position for entry in entries.values()]
     store.table[Q.SET_P] = store.table[Q.ACTUAL_P] = starts
     ideals, servos = _ideal_drives(store, description), _servo_drives(store, description, seed)
@@ -57,7 +61,10 @@ def build(description: Description, seed: int = 0) -> Parts:
     ]
     kinds = {entry.drive.kind for entry in entries.values()}
     stages = [one for one in stages if not one.name.endswith(" drives") or one.name.split()[0] in kinds]
-    return Parts(store, ledger, events, axes, servos, stages)
+    pulses = _zero_pulses(store, description)
+    if pulses is not None:
+        stages.insert(len(stages) - 3, Stage(Step.INPUTS, "zero pulses", pulses.inputs))
+    return Parts(store, ledger, events, axes, servos, stage, stages)
 
 
 def _axis_config(name: str, entry: AxisDescription) -> AxisConfig:
@@ -68,11 +75,40 @@ def _axis_config(name: str, entry: AxisDescription) -> AxisConfig:
         default=Limits(entry.velocity, entry.acceleration, entry.deceleration, entry.jerk),
         limit_min=-math.inf if entry.software_limit_min is None else entry.software_limit_min,
         limit_max=math.inf if entry.software_limit_max is None else entry.software_limit_max,
-        home=HomeConfig(
-            HomingMode(entry.home.mode), entry.home.position, entry.home.velocity, SIGN[entry.home.direction]
+        home=_home_config(entry),
+        manual=ManualConfig(
+            0.05 * entry.max_velocity if entry.manual.slow is None else entry.manual.slow,
+            0.3 * entry.max_velocity if entry.manual.fast is None else entry.manual.fast,
+            entry.manual.forward,
+            entry.manual.backward,
         ),
         monitor=MonitorConfig(**dict(entry.monitor)),
+        modulo=ModuloConfig(entry.modulo.period, entry.modulo.tolerance),
     )
+
+
+def _home_config(entry: AxisDescription) -> HomeConfig:
+    home, direction = entry.home, SIGN[entry.home.direction]
+    return HomeConfig(
+        mode=HomingMode(home.mode),
+        position=home.position,
+        velocity=home.velocity,
+        direction=direction,
+        sync_velocity=home.velocity if home.sync_velocity is None else home.sync_velocity,
+        sync_direction=-direction if home.sync_direction is None else SIGN[home.sync_direction],
+        travel=math.inf if home.travel is None else home.travel,
+        pulse_distance=home.pulse_distance,
+    )
+
+
+def _zero_pulses(store: Store, description: Description) -> ZeroPulses | None:
+    homes = [entry.home for entry in description.axis.values()]
+    pulses = {
+        column: ZeroPulse(home.pulse, home.pulse_period)
+        for column, home in enumerate(homes)
+        if home.pulse_period is not None
+    }
+    return ZeroPulses(store, pulses) if pulses else None
 
 
 def _columns(description: Description, kind: str) -> dict[int, tuple[str, AxisDescription]]:

@@ -10,13 +10,17 @@ from typing import Any, Literal
 from pydantic import ConfigDict, Field, ValidationInfo, field_validator
 from pydantic_core import PydanticCustomError
 
+from motionlayer.machine._axis_description import ManualDescription, ModuloDescription
 from motionlayer.machine._drive_description import (
     DriveDescription,
     FaultDescription,
     GroupDescription,
     MonitorDescription,
 )
-from motionlayer.machine._fields import Acceleration, Jerk, Position, Positive, Table, Text, Velocity
+from motionlayer.machine._fields import Acceleration, Jerk, Position, Positive, Table, Text, Velocity, Width, Window
+from motionlayer.machine._log_description import LogDescription
+from motionlayer.machine._realtime_description import RealTimeDescription
+from motionlayer.machine._task_description import TaskDescription
 
 FORMATS = (1,)
 """Formats of the machine file that are understood."""
@@ -27,6 +31,7 @@ SIGNALS = (
     "set_acceleration",
     "set_jerk",
     "actual_position",
+    "lag",
     "max_velocity",
     "max_acceleration",
     "max_deceleration",
@@ -35,6 +40,8 @@ SIGNALS = (
     "software_limit_max",
     "state",
     "override",
+    "enable",
+    "ready",
 )
 """Names of the signals every axis has in a trace; the full name is `<axis>.<signal>`."""
 
@@ -63,15 +70,16 @@ class HomeDescription(Table):
 
     model_config = ConfigDict(json_schema_extra=_velocity_is_optional)
 
-    mode: Literal["direct", "switch"] = Field(
+    mode: Literal["direct", "switch", "cam", "index"] = Field(
         default="direct",
-        description='"direct": the present position becomes `position`; "switch": search the switch.',
+        description='"direct": the present position becomes `position`; "switch": search the edge of the switch; '
+        '"cam": search it, turn, and take the edge at which the axis leaves it; "index": take the zero pulse behind.',
     )
-    position: Position = Field(default=0.0, description="Reference position, at the switch if one is searched (u).")
+    position: Position = Field(default=0.0, description="Reference position, of the edge or the pulse (u).")
     switch: Position | None = Field(
         default=None,
         validate_default=True,
-        description='Drive position of the simulated switch (u); needed for mode "switch". The switch is on '
+        description='Drive position of the simulated switch (u); needed but for mode "direct". The switch is on '
         'at or below it for direction "negative", at or above it for "positive".',
         json_schema_extra={"x-unit": "u"},
     )
@@ -82,12 +90,41 @@ class HomeDescription(Table):
         description="Search velocity (u/s), > 0 and at most max_velocity; default: a tenth of max_velocity."
     )
 
+    sync_velocity: Velocity | None = Field(
+        default=None,
+        description="Velocity off the cam (u/s), > 0 and at most max_velocity; default: that of the search.",
+    )
+    sync_direction: Literal["negative", "positive"] | None = Field(
+        default=None, description="Direction off the cam; default: the opposite of that of the search."
+    )
+    travel: Window | None = Field(
+        default=None,
+        description="Longest way of each search (u), > 0; behind it is an error. Default: without a bound.",
+    )
+    pulse: Position = Field(default=0.0, description="Drive position of one of the simulated zero pulses (u).")
+    pulse_period: Window | None = Field(
+        default=None,
+        validate_default=True,
+        description='From one zero pulse to the next (u), > 0; needed for mode "index".',
+    )
+    pulse_distance: Width = Field(
+        default=0.0, description="Least distance of the zero pulse from the edge of the cam (u); nearer it is an error."
+    )
+
     @field_validator("switch")
     @classmethod
     def _switch_for_mode(cls, switch: float | None, info: ValidationInfo) -> float | None:
-        if switch is None and info.data.get("mode") == "switch":
-            raise PydanticCustomError("missing", "missing", {"hint": 'mode = "switch" needs it'})
+        mode = info.data.get("mode")
+        if switch is None and mode in ("switch", "cam", "index"):
+            raise PydanticCustomError("missing", "missing", {"hint": f'mode = "{mode}" needs it'})
         return switch
+
+    @field_validator("pulse_period")
+    @classmethod
+    def _pulse_for_mode(cls, period: float | None, info: ValidationInfo) -> float | None:
+        if period is None and info.data.get("mode") == "index":
+            raise PydanticCustomError("missing", "missing", {"hint": 'mode = "index" needs it'})
+        return period
 
 
 class AxisDescription(Table):
@@ -135,6 +172,8 @@ class AxisDescription(Table):
         validate_default=True,
         description="How the axis finds its reference.",
     )
+    modulo: ModuloDescription = Field(default_factory=ModuloDescription, description="The modulo view of the position.")
+    manual: ManualDescription = Field(default_factory=ManualDescription, description="Manual motion.")
     drive: DriveDescription = Field(default_factory=DriveDescription, description="The drive of the axis.")
     monitor: MonitorDescription = Field(
         default_factory=MonitorDescription, description="What is watched on the axis; nothing by default."
@@ -148,6 +187,15 @@ class AxisDescription(Table):
         if maximum is not None and value > maximum:
             raise PydanticCustomError("relation", "relation", {"allowed": f"at most {name} = {maximum}"})
         return value
+
+    @field_validator("manual")
+    @classmethod
+    def _manual_at_most_maximum(cls, manual: ManualDescription, info: ValidationInfo) -> ManualDescription:
+        maximum = info.data.get("max_velocity")
+        fastest = max(manual.slow or 0.0, manual.fast or 0.0)
+        if maximum is not None and fastest > maximum:
+            raise PydanticCustomError("relation", "relation", {"allowed": f"at most max_velocity = {maximum}"})
+        return manual
 
     @field_validator("software_limit_max")
     @classmethod
@@ -171,7 +219,19 @@ class ProgramDescription(Table):
     """A program started with the run: `[program.pick]`."""
 
     file: Text = Field(description="Python file, relative to the folder of the machine file; must exist.")
-    function: Text = Field(default="main", description="Name of the function in the file to start.")
+    function: Text = Field(
+        default="main",
+        description="Name of the function in the file: `async def f(run)` runs from wait to wait, `def f(run)` or "
+        "`def f(run, memory)` is called in every cycle of its task.",
+    )
+    task: Text | None = Field(
+        default=None, description='Name of the task that calls a function without `async`; default: "main".'
+    )
+    prefix: str = Field(
+        default="",
+        description="Handed to the function as `prefix`, if it has such a parameter: what the names of its axes begin "
+        "with. A module that is included with a prefix puts its own before this one.",
+    )
 
     @field_validator("function")
     @classmethod
@@ -223,7 +283,20 @@ class Description(Table):
         strict=False,  # TOML gives a list
         description="What goes wrong during the run.",
     )
+    task: dict[str, TaskDescription] = Field(
+        default_factory=dict,
+        description='Tasks that call cyclic programs, by name; "main" is always there, by default in every tick.',
+    )
     program: dict[str, ProgramDescription] = Field(
         default_factory=dict, description="Programs started with the run, in this order."
     )
+    persistent_file: Text | None = Field(
+        default=None,
+        description="File of the parameters that are written persistently, relative to the folder of the machine "
+        "file; default: they cannot be.",
+    )
+    realtime: RealTimeDescription = Field(
+        default_factory=RealTimeDescription, description="What a real-time run asks of the computer."
+    )
+    log: LogDescription | None = Field(default=None, description="The message files; none without this table.")
     trace: TraceDescription = Field(default_factory=TraceDescription, description="What a trace records.")

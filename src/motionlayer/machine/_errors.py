@@ -1,4 +1,4 @@
-"""`Finding` and `MachineError`: what is wrong with a machine description, in words for a person."""
+"""`Finding`, `MachineError`, `OldName`: what is wrong with a machine description, in words for a person."""
 
 import textwrap
 from collections.abc import Iterable
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 _LINE_WIDTH = 110
 _SHORT_HINT = 60
+_INDENT = "    "
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +24,8 @@ class Finding:
         allowed: what is allowed, going on from "must be"; may be empty.
         hint: how to mend it; may be empty.
         problem: what is wrong where `allowed` alone does not say it ("missing", "unknown key"); may be empty.
+        included: of a module, the places that include it, each like `cell.toml:12 as "S1_"`; empty for the machine
+            file itself.
     """
 
     file: str | None
@@ -32,22 +35,21 @@ class Finding:
     allowed: str
     hint: str = ""
     problem: str = ""
+    included: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         place = [] if self.file is None else [self.file if self.line is None else f"{self.file}:{self.line}"]
         subject = [f"{self.field} = {self.value}" if self.value is not None else self.field] if self.field else []
         verdict = "; ".join(part for part in (self.problem, self.allowed and f"must be {self.allowed}") if part)
         text = ": ".join([*place, *subject, verdict])
-        if not self.hint:
-            return text
+        places = [f"{_INDENT}included at {one}" for one in self.included]
         # Not by the length of the line: the same finding reads the same, however long the path of the file.
         if len(self.hint) <= _SHORT_HINT:
-            return f"{text}; {self.hint}"
-        indent = "    "
+            return "\n".join([f"{text}; {self.hint}" if self.hint else text, *places])
         lines = textwrap.wrap(
-            self.hint, _LINE_WIDTH, initial_indent=indent, subsequent_indent=indent, break_long_words=False
+            self.hint, _LINE_WIDTH, initial_indent=_INDENT, subsequent_indent=_INDENT, break_long_words=False
         )
-        return "\n".join([text, *lines])
+        return "\n".join([text, *lines, *places])
 
 
 class MachineError(ValueError):
@@ -63,3 +65,7 @@ class MachineError(ValueError):
 
     def __str__(self) -> str:
         return "\n".join(str(finding) for finding in self.findings)
+
+
+class OldName(FutureWarning):
+    """A machine file uses a name that the next version does not read; the text says where, and the new name."""

@@ -1,14 +1,16 @@
 """Programs in files: from `FILE:NAME` to something that can be started."""
 
+import functools
 import hashlib
 import importlib.util
 import inspect
 import sys
 from collections.abc import Callable, Coroutine
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 from motionlayer.machine._machine import Machine
+from motionlayer.runtime import MAIN, Program, Run, takes_memory
 
 
 class ProgramError(ValueError):
@@ -21,21 +23,47 @@ class Source(NamedTuple):
     name: str
     file: Path
     function: str
+    task: str | None = None
+    prefix: str = ""
 
 
 class Loaded(NamedTuple):
-    """A program that can be started: `function(run)` gives the coroutine."""
+    """A program that can be started.
+
+    Attributes:
+        name: for messages.
+        function: `async def f(run)`, or of a cyclic program `def f(run)` or `def f(run, memory)`.
+        file: name of the file, without its folder.
+        sha256: of the file.
+        task: what calls a cyclic program, None of a coroutine.
+        source: where it comes from.
+    """
 
     name: str
-    function: Callable[[Any], Coroutine[Any, Any, Any]]
+    function: Callable[..., Coroutine[Any, Any, Any] | None]
     file: str
     sha256: str
+    task: str | None = None
+    source: Source | None = None
+
+    def start(self, run: Run) -> Program:
+        """Start it in a run.
+
+        Raises:
+            KeyError: the run has no such task.
+        """
+        if self.task is not None:
+            return run.cyclic(cast("Callable[..., None]", self.function), task=self.task, name=self.name)
+        return run.start(cast("Coroutine[Any, Any, Any]", self.function(run)), self.name)
 
 
 def sources_of(machine: Machine) -> list[Source]:
     """Return the programs that the machine description names, in order."""
     programs = machine.description.program
-    return [Source(name, machine.folder / entry.file, entry.function) for name, entry in programs.items()]
+    return [
+        Source(name, machine.folder / entry.file, entry.function, entry.task, entry.prefix)
+        for name, entry in programs.items()
+    ]
 
 
 def parse_source(text: str) -> Source:
@@ -50,7 +78,7 @@ def load_program(source: Source) -> Loaded:
     """Import the file and find the function.
 
     Raises:
-        ProgramError: no such file or function, not a coroutine function, or an error while it was imported.
+        ProgramError: no such file or function, not a function that can be a program, or an error while it was imported.
     """
     try:
         text = source.file.read_bytes()
@@ -62,19 +90,35 @@ def load_program(source: Source) -> Loaded:
         known = [name for name, value in vars(module).items() if inspect.iscoroutinefunction(value)]
         offer = f"; it has {', '.join(known)}" if known else ""
         raise ProgramError(f"program {source.name}: {source.file} has no function {source.function!r}{offer}")
-    if not inspect.iscoroutinefunction(function) or not _takes_the_run(function):
-        raise ProgramError(
-            f"program {source.name}: {source.function!r} in {source.file} must be `async def {source.function}(run)`"
-        )
-    return Loaded(source.name, function, source.file.name, hashlib.sha256(text).hexdigest())
+    function = _told(function, source.prefix)
+    digest = hashlib.sha256(text).hexdigest()
+    return Loaded(source.name, function, source.file.name, digest, _task(source, function), source)
 
 
-def _takes_the_run(function: Callable[..., object]) -> bool:
+def _told(function: Callable[..., Any], prefix: str) -> Callable[..., Any]:
+    """Return a function that knows the prefix of its axes, if it asks for it."""
     try:
-        inspect.signature(function).bind(None)
-    except TypeError:
-        return False
-    return True
+        asks = "prefix" in inspect.signature(function).parameters
+    except (TypeError, ValueError):  # no function, or something built in: said when its task is looked for
+        return function
+    return functools.partial(function, prefix=prefix) if asks else function
+
+
+def _task(source: Source, function: Callable[..., object]) -> str | None:
+    """Return the task that calls a function, None of a coroutine function."""
+    name, where = source.function, f"program {source.name}: {source.function!r} in {source.file}"
+    coroutine = inspect.iscoroutinefunction(function)
+    try:
+        if coroutine:
+            inspect.signature(function).bind(None)
+        else:
+            takes_memory(function)
+    except (TypeError, ValueError) as error:  # ValueError: something built in, which shows no parameters
+        forms = f"`async def {name}(run)`, `def {name}(run)` or `def {name}(run, memory)`"
+        raise ProgramError(f"{where} must be {forms}") from error
+    if coroutine and source.task is not None:
+        raise ProgramError(f"{where} is a coroutine function, which no task calls; leave out task = {source.task!r}")
+    return None if coroutine else source.task or MAIN
 
 
 def _import(source: Source) -> object:

@@ -15,6 +15,7 @@ from motionlayer.machine._description import FORMATS, IDENTIFIER, SIGNALS
 from motionlayer.machine._drive_relations import drive_problems
 from motionlayer.machine._problem import Problem, field_text, value_text
 from motionlayer.machine._program_file import function_problem
+from motionlayer.machine._task_relations import task_problems
 
 _FORMATS = ", ".join(str(number) for number in FORMATS)
 
@@ -40,6 +41,7 @@ def relation_problems(data: object, folder: Path) -> Iterator[Problem]:
     for name, axis in axes.items():
         yield from _search_velocity_problems(name, axis)
     yield from drive_problems(data)
+    yield from task_problems(data)
     yield from _pattern_problems(table(data, "trace"), axes)
     for name, program in table(data, "program").items():
         yield from _file_problems(name, program, folder)
@@ -99,20 +101,20 @@ def _pattern_hint(pattern: str, names: list[str]) -> str:
 
 def _file_problems(name: str, program: object, folder: Path) -> Iterator[Problem]:
     file = program.get("file") if isinstance(program, dict) else None
-    if not isinstance(file, str) or not file:
+    if not isinstance(program, dict) or not isinstance(file, str) or not file:
         return
     try:
         exists, is_file = (folder / file).exists(), (folder / file).is_file()
     except (OSError, ValueError):  # no right to look, too long, a NUL inside
         exists = is_file = False
     if not is_file:
-        problem = "not a file" if exists else f"no such file in the folder {value_text(str(folder))}"
+        problem = "not a file" if exists else f"no such file in the folder {value_text(str((folder / file).parent))}"
         yield Problem(("program", name, "file"), value_text(file), problem=problem)
         return
-    function = program.get("function", "main") if isinstance(program, dict) else None
+    function = program.get("function", "main")
     if isinstance(function, str) and function.isidentifier():
-        found = function_problem(folder / file, function)
+        found = function_problem(folder / file, function, cyclic_only="task" in program)
         if found is not None:
             field, problem, hint = found
-            value = value_text(file if field == "file" else function)
+            value = value_text(program.get(field, function))
             yield Problem(("program", name, field), value, problem=problem, hint=hint)

@@ -13,6 +13,7 @@ ROWS: Final = {
     "set_acceleration": (Q.SET_A, "/s²"),
     "set_jerk": (Q.SET_J, "/s³"),
     "actual_position": (Q.ACTUAL_P, ""),
+    "lag": (Q.LAG, ""),
     "max_velocity": (Q.MAX_V, "/s"),
     "max_acceleration": (Q.MAX_A, "/s²"),
     "max_deceleration": (Q.MAX_D, "/s²"),
@@ -21,6 +22,8 @@ ROWS: Final = {
     "software_limit_max": (Q.MAX_P, ""),
     "state": (Q.STATE, None),
     "override": (Q.OVERRIDE, None),
+    "enable": (Q.ENABLE, None),
+    "ready": (Q.READY, None),
 }
 """Row of the store and what is appended to the unit of the axis; None for plain numbers."""
 

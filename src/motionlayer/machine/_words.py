@@ -8,12 +8,13 @@ import difflib
 import functools
 import json
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, cast
 
+from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from motionlayer.machine._description import Description
 from motionlayer.machine._problem import KeyPath, Problem, value_text
+from motionlayer.machine._schema import MachineFile
 
 _KINDS = {
     "number": "a finite number",
@@ -37,6 +38,12 @@ def model_problems(errors: Iterable[ErrorDetails]) -> list[Problem]:
     # A misspelt required key is one mistake, not two.
     meant = {_meant(error["loc"]) for error in own if error["type"] == "extra_forbidden"}
     return [_problem(error) for error in own if not (error["type"] == "missing" and error["loc"] in meant)]
+
+
+def table_problems(error: ValidationError, at: KeyPath) -> list[Problem]:
+    """Return one problem for each error of the model of a single table, which stands at a path."""
+    errors = [{**one, "loc": (*at, *one["loc"])} for one in error.errors(include_url=False)]
+    return model_problems(cast("list[ErrorDetails]", errors))
 
 
 def _problem(error: ErrorDetails) -> Problem:
@@ -122,4 +129,4 @@ def _resolved(node: dict[str, Any], root: dict[str, Any]) -> dict[str, Any]:
 
 @functools.cache
 def _root_schema() -> dict[str, Any]:
-    return Description.model_json_schema()
+    return MachineFile.model_json_schema()

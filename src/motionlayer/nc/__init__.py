@@ -1,29 +1,61 @@
 """The numerical control: axes (point to point), built on profiles and the setpoint store."""
 
 from motionlayer.nc._axis import Axis
-from motionlayer.nc._config import AxisConfig, Direction, HomeConfig, HomingMode
+from motionlayer.nc._axis_ref import (
+    NCTOPLC_AXIS_REF,
+    PLCTONC_AXIS_REF,
+    ControlDWord,
+    OpModeDWord,
+    StateDWord,
+)
+from motionlayer.nc._axis_refs import AxisRefs
+from motionlayer.nc._config import (
+    AxisConfig,
+    BufferMode,
+    Calibration,
+    Direction,
+    HomeConfig,
+    HomingMode,
+    JogMode,
+    ManualConfig,
+    ModuloConfig,
+)
 from motionlayer.nc._monitors import MonitorConfig
-from motionlayer.nc._motion import AxisCommand
+from motionlayer.nc._motion import AxisCommand, HeldCommand
+from motionlayer.nc._planning import ROW_PIECES
 from motionlayer.nc._reaction import REACTIONS, ErrorGroup, GroupReaction, Reaction
 from motionlayer.nc._stage import AxisStage
 from motionlayer.nc._states import TRANSITIONS, AxisEvent, AxisState
 from motionlayer.nc._stopping import stopping
 
 __all__ = [
+    "NCTOPLC_AXIS_REF",
+    "PLCTONC_AXIS_REF",
     "REACTIONS",
+    "ROW_PIECES",
     "TRANSITIONS",
     "Axis",
     "AxisCommand",
     "AxisConfig",
     "AxisEvent",
+    "AxisRefs",
     "AxisStage",
     "AxisState",
+    "BufferMode",
+    "Calibration",
+    "ControlDWord",
     "Direction",
     "ErrorGroup",
     "GroupReaction",
+    "HeldCommand",
     "HomeConfig",
     "HomingMode",
+    "JogMode",
+    "ManualConfig",
+    "ModuloConfig",
     "MonitorConfig",
+    "OpModeDWord",
     "Reaction",
+    "StateDWord",
     "stopping",
 ]

@@ -74,6 +74,7 @@ POSITIVE: Final = int(StateDWord.PositiveDirection)
 NEGATIVE: Final = int(StateDWord.NegativeDirection)
 CONSTANT: Final = int(StateDWord.ConstantVelocity)
 HOMING_BUSY: Final = int(StateDWord.HomingBusy)
+LOCKED: Final = int(StateDWord.MotionCommandsLocked)
 CONTINUOUS: Final = int(StateDWord.ContinuousMotion)
 HAS_JOB: Final = int(StateDWord.HasJob)
 BUFFERED: Final = int(StateDWord.CmdBuffered)
@@ -90,6 +91,7 @@ STATUS_INVALID: Final = Status.INVALID | Status.LOST
 CYCLE_SHIFT: Final = int(OpModeDWord.NcApplicationRequest).bit_length()
 
 ERRORSTOP: Final = 3
+STOPPING: Final = 4
 HOMING_STATE_OF_AXIS: Final = 5
 CONTINUOUS_MOTION: Final = 7
 
@@ -122,6 +124,8 @@ def state_bits(state: int, ready: float, status: int) -> int:
     bits = OPERATIONAL if ready != 0.0 else 0
     if state == HOMING_STATE_OF_AXIS:
         bits |= HOMING_BUSY
+    elif state == STOPPING:
+        bits |= LOCKED
     elif state == CONTINUOUS_MOTION:
         bits |= CONTINUOUS
     elif state == ERRORSTOP:
@@ -160,14 +164,15 @@ def word(bits: int) -> int:
 
 @kernel
 def fill(
-    table: Floats, reals: Floats, ints: Ints, words: Words, memory: Floats, op_mode: Ints, tick: int, dt: float
+    table: Floats, reals: Floats, ints: Ints, words: Words, memory: Floats, op_mode: Ints, tick: int, cycle_ns: int
 ) -> None:
     """Fill the cyclic fields of all axes with what is valid at `tick`."""
     set_p, set_v, set_a, set_j = table[SET_P], table[SET_V], table[SET_A], table[SET_J]
     actual, low, high, target = table[ACTUAL_P], table[MIN_P], table[MAX_P], table[TARGET]
     last_p, last_v, modulo = memory[LAST_P], memory[LAST_V], memory[MODULO]
     cycles = word((tick & 255) << CYCLE_SHIFT)
-    rate = 1.0 / dt
+    stamp = word(tick * cycle_ns & 0xFFFFFFFF)
+    rate = 1e9 / cycle_ns
     for i in range(reals.shape[0]):
         p, v, a, act, period = set_p[i], set_v[i], set_a[i], actual[i], modulo[i]
         flags, state = int(table[FLAGS, i]), int(table[STATE, i])
@@ -188,7 +193,7 @@ def fill(
         ints[i, OP_MODE] = op_mode[i] | cycles
         ints[i, MODULO_ACT_TURNS] = int(act_turns)
         ints[i, MODULO_SET_TURNS] = int(set_turns)
-        ints[i, TIME_STAMP] = word(int(tick * dt * 1e9 + 0.5) & 0xFFFFFFFF)
+        ints[i, TIME_STAMP] = stamp
         words[i, CMD_NO] = command & 0xFFFF
         words[i, CMD_STATE] = 1 if flags & HAS_JOB != 0 else 0
         reals[i, ACT_POS] = act

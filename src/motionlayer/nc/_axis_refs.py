@@ -1,11 +1,15 @@
 """`AxisRefs`: the cyclic interface of all axes, as one buffer per direction."""
 
+import functools
+import math
+import operator
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from motionlayer.nc._axis_ref import NCTOPLC_AXIS_REF, PLCTONC_AXIS_REF
+from motionlayer.nc._axis_ref import NCTOPLC_AXIS_REF, PLCTONC_AXIS_REF, OpModeDWord
 from motionlayer.nc._axis_ref_kernels import LAST_P, LAST_V, MEMORY, MODULO, fill
+from motionlayer.nc._config import AxisConfig
 from motionlayer.store import Q, Store
 
 if TYPE_CHECKING:
@@ -15,11 +19,25 @@ DEFAULT_MODULO: Final = 360.0
 """Modulo period (u) of an axis that names none: the modulo position is a view that linear axes have too."""
 
 
+def op_mode(config: AxisConfig) -> OpModeDWord:
+    """Return which monitors of an axis are on."""
+    monitor = config.monitor
+    watched = {
+        OpModeDWord.PositionAreaMonitoring: monitor.range_window is not None,
+        OpModeDWord.TargetPositionMonitoring: monitor.target_window is not None,
+        OpModeDWord.PEHTimeMonitoring: monitor.target_timeout is not None,
+        OpModeDWord.PositionLagMonitoring: monitor.lag is not None,
+        OpModeDWord.SoftLimitMinMonitoring: math.isfinite(config.limit_min),
+        OpModeDWord.SoftLimitMaxMonitoring: math.isfinite(config.limit_max),
+    }
+    return functools.reduce(operator.or_, (bit for bit, on in watched.items() if on), OpModeDWord(0))
+
+
 class AxisRefs:
     """`NcToPlc` and `PlcToNc` of all axes; the buffers never move.
 
-    What is shown is what was valid at a tick, before its setpoints were taken on: a block that is called in tick n sees
-    the image of the last finished tick (function-blocks 1.6).
+    What is shown is what the last finished cycle has come to: the setpoints that it generated, and the actual values
+    that its drives then reported (function-blocks 1.6). A block sees it until the next inputs, whatever is commanded.
 
     Args:
         store: where the values are; axes are its first columns.
@@ -29,15 +47,18 @@ class AxisRefs:
     Attributes:
         nc_to_plc: structured array `NCTOPLC_AXIS_REF`, one element per axis.
         plc_to_nc: structured array `PLCTONC_AXIS_REF`, one element per axis.
+        cycle_time: s.
     """
 
     def __init__(self, store: Store, modulo: list[float], op_mode: list[int]) -> None:
         count = len(modulo)
         self.nc_to_plc: NDArray[Any] = np.zeros(count, dtype=NCTOPLC_AXIS_REF)
         self.plc_to_nc: NDArray[Any] = np.zeros(count, dtype=PLCTONC_AXIS_REF)
+        self.cycle_time = store.dt
         self._store = store
         raw = self.nc_to_plc.view(np.uint8).reshape(count, NCTOPLC_AXIS_REF.itemsize)
         self._views = raw.view(np.float64), raw.view(np.int32), raw.view(np.uint16)
+        self._cycle_ns = round(store.dt * 1e9)
         self._op_mode = np.array(op_mode, dtype=np.int32)
         self._memory = np.zeros((MEMORY, count))
         self._memory[LAST_P] = store.table[Q.ACTUAL_P, :count]
@@ -45,6 +66,11 @@ class AxisRefs:
         self._memory[MODULO] = modulo
         self.nc_to_plc["AxisId"] = np.arange(1, count + 1)
 
+    def configure(self, index: int, config: AxisConfig) -> None:
+        """Show an axis by another configuration."""
+        self._memory[MODULO, index] = config.modulo.period
+        self._op_mode[index] = op_mode(config)
+
     def fill(self, tick: int) -> None:
         """Show what is valid at `tick`."""
-        fill(self._store.table, *self._views, self._memory, self._op_mode, tick, self._store.dt)
+        fill(self._store.table, *self._views, self._memory, self._op_mode, tick, self._cycle_ns)

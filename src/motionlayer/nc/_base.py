@@ -1,11 +1,18 @@
 """The base of an axis: its values in the store, its state, and the life of its commands."""
 
+from typing import TYPE_CHECKING
+
 from motionlayer.command import ERRORS, Command, ErrorId, Ledger, MotionError
-from motionlayer.event import Event, EventLog, Kind, Level
+from motionlayer.event import Event, EventLog, Kind, Level, Subdevice
+from motionlayer.nc._axis_ref import StateDWord
 from motionlayer.nc._config import AxisConfig
 from motionlayer.nc._motion import AxisCommand, Refusal
 from motionlayer.nc._states import NEED_POWER, TRANSITIONS, AxisEvent, AxisState
+from motionlayer.nc._subdevices import axis_device, subdevice_of
 from motionlayer.store import Q, Store
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 
 class AxisBase:
@@ -23,8 +30,11 @@ class AxisBase:
         self.config = config
         self.name = config.name
         self.ledger = ledger
-        self.error: MotionError | None = None
+        self.configured: Callable[[int], None] = _nobody
+        """Told the column, when another configuration has come into force."""
+        self._error: MotionError | None = None
         self._column = column
+        self._device = axis_device(column)
         self._store = store
         self._table = store.table
         self._events = events
@@ -33,11 +43,31 @@ class AxisBase:
         self._table[Q.STATE, column] = self._state
         self._table[Q.MIN_P, column] = config.limit_min
         self._table[Q.MAX_P, column] = config.limit_max
+        self._table[Q.FLAGS, column] = StateDWord.PTPmode
 
     @property
     def state(self) -> AxisState:
         """Present state."""
         return self._state
+
+    @property
+    def error(self) -> MotionError | None:
+        """Why the axis is in ErrorStop, None elsewhere."""
+        return self._error
+
+    @error.setter
+    def error(self, error: MotionError | None) -> None:
+        self._error = error
+        self._table[Q.ERROR, self._column] = 0 if error is None else error.id
+
+    @property
+    def homed(self) -> bool:
+        """The position is that of a reference."""
+        return bool(int(self._table[Q.FLAGS, self._column]) & StateDWord.Homed)
+
+    @homed.setter
+    def homed(self, homed: bool) -> None:
+        self._flag(StateDWord.Homed, on=homed)
 
     @property
     def set_position(self) -> float:
@@ -70,6 +100,11 @@ class AxisBase:
         return float(self._table[Q.REQUEST, self._column])
 
     @property
+    def power_requested(self) -> bool:
+        """The drive is asked to be on."""
+        return bool(self._table[Q.ENABLE, self._column])
+
+    @property
     def enabled(self) -> bool:
         """The drive is ready."""
         return bool(self._table[Q.READY, self._column])
@@ -95,30 +130,45 @@ class AxisBase:
         self._state = state
         self._table[Q.STATE, self._column] = state
 
-    def _tell(self, level: Level, kind: Kind, text: str, code: int = 0, command: int = 0) -> None:
-        self._events.add(Event(self.ledger.tick, level, kind, self.name, text, code, command))
+    def _flag(self, bit: StateDWord, *, on: bool) -> None:
+        """Show a bit of `StateDWord` that changes with commands."""
+        flags = int(self._table[Q.FLAGS, self._column])
+        self._table[Q.FLAGS, self._column] = flags | bit if on else flags & ~bit
+
+    def _tell(self, level: Level, kind: Kind, text: str, code: int = 0) -> None:
+        self._add(level, kind, text, code, 0, Subdevice.AxisCycle)
+
+    def _tell_of(self, command: AxisCommand, level: Level, kind: Kind, text: str, code: int = 0) -> None:
+        self._add(level, kind, text, code, command.number, subdevice_of(command.name))
+
+    def _add(self, level: Level, kind: Kind, text: str, code: int, command: int, part: Subdevice) -> None:
+        self._events.add(Event(self.ledger.tick, level, kind, self.name, text, code, command, self._device, part))
 
     def _accept(self, command: AxisCommand, text: str) -> None:
-        self._tell(Level.VERBOSE, Kind.ACCEPTED, text, 0, command.number)
+        self._tell_of(command, Level.VERBOSE, Kind.ACCEPTED, text)
 
     def _refuse(self, command: AxisCommand, refusal: Refusal) -> AxisCommand:
         error = MotionError(refusal.id, self.name, refusal.detail)
-        self._tell(Level.WARNING, Kind.REFUSED, f"{command.name}: {error.text}", refusal.id, command.number)
+        self._tell_of(command, Level.WARNING, Kind.REFUSED, f"{command.name}: {error.text}", refusal.id)
         command.fail(error)
         return command
 
     def _fail(self, command: AxisCommand, error: MotionError) -> None:
-        self._tell(Level.ERROR, Kind.ERROR, ERRORS[error.id].text, error.id, command.number)
+        self._tell_of(command, Level.ERROR, Kind.ERROR, ERRORS[error.id].text, error.id)
         command.fail(error)
 
     def _end(self, command: AxisCommand, by: Command[None] | None = None) -> None:
         """End a command done, or aborted by another one."""
         if by is None:
-            self._tell(Level.VERBOSE, Kind.DONE, command.name, 0, command.number)
+            self._tell_of(command, Level.VERBOSE, Kind.DONE, command.name)
             command.finish(None)
         else:
-            self._tell(Level.VERBOSE, Kind.ABORTED, f"{command.name} by {by.name}", 0, command.number)
+            self._tell_of(command, Level.VERBOSE, Kind.ABORTED, f"{command.name} by {by.name}")
             command.abort(by)
 
     def __repr__(self) -> str:
         return f"<Axis {self.name}: {self._state!s} at {self.set_position:.6g} {self.config.unit}>"
+
+
+def _nobody(_column: int) -> None:
+    """Nobody wants to know."""

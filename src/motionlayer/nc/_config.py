@@ -1,6 +1,7 @@
-"""What an axis is told when it is built."""
+"""What an axis is told when it is built, and the enumerations of its commands."""
 
 import enum
+import math
 from typing import NamedTuple
 
 from motionlayer.nc._monitors import MonitorConfig
@@ -8,27 +9,118 @@ from motionlayer.profile import Limits
 
 
 class Direction(enum.IntEnum):
-    """`MC_Direction`, as far as endless motion knows it."""
+    """`MC_Direction`. Which of them a command takes is said there."""
 
     POSITIVE = 1
+    SHORTEST_WAY = 2
     NEGATIVE = 3
     CURRENT = 4
+    UNDEFINED = 128
+
+
+class BufferMode(enum.IntEnum):
+    """`MC_BufferMode`: when a command begins that is given while another one runs, and how fast it is handed over."""
+
+    ABORTING = 0
+    """At once; the running command and a buffered one end aborted."""
+    BUFFERED = 1
+    """When the running one has come to rest."""
+    BLENDING_LOW = 2
+    """At the target of the running one, with the lower velocity of both."""
+    BLENDING_PREVIOUS = 3
+    """There, with the velocity of the running one."""
+    BLENDING_NEXT = 4
+    """There, with the velocity of the new one."""
+    BLENDING_HIGH = 5
+    """There, with the higher velocity of both."""
+
+
+class JogMode(enum.IntEnum):
+    """`E_JogMode`."""
+
+    STANDARD_SLOW = 0
+    """While the key is held, with the slow manual velocity of the axis."""
+    STANDARD_FAST = 1
+    """While the key is held, with the fast one."""
+    CONTINUOUS = 2
+    """While the key is held, with the velocity and the dynamics of the command."""
+    INCHING = 3
+    """One step."""
+    INCHING_MODULO = 4
+    """To the next integer multiple of the step."""
 
 
 class HomingMode(enum.Enum):
     """How an axis finds its reference."""
 
     DIRECT = "direct"
+    """The present position is the reference position."""
     SWITCH = "switch"
+    """The first edge of a reference or limit switch."""
+    CAM = "cam"
+    """The edge at which the axis leaves the cam again."""
+    INDEX = "index"
+    """The zero pulse of the encoder behind that edge."""
+
+
+class Calibration(enum.IntEnum):
+    """`MC_HomingMode`."""
+
+    DEFAULT = 0
+    """As the machine description says."""
+    DIRECT = 1
+    """The present position is the reference position."""
+    FORCE = 2
+    """The axis counts as homed, and nothing else changes."""
+    RESET = 3
+    """It does not any more, and nothing else changes."""
 
 
 class HomeConfig(NamedTuple):
-    """Homing of an axis: reference position in u, search velocity in u/s, direction of the search (+1, -1)."""
+    """Homing of an axis.
+
+    Attributes:
+        mode: see `HomingMode`.
+        position: of the reference, u.
+        velocity: of the search, u/s.
+        direction: of the search, +1 or -1.
+        sync_velocity: off the cam, u/s.
+        sync_direction: off the cam, +1 or -1.
+        travel: longest way of each search, u; infinite without a bound.
+        pulse_distance: least distance of the zero pulse from the edge of the cam, u.
+    """
 
     mode: HomingMode
     position: float
     velocity: float
     direction: float
+    sync_velocity: float
+    sync_direction: float
+    travel: float = math.inf
+    pulse_distance: float = 0.0
+
+
+class ManualConfig(NamedTuple):
+    """Jogging.
+
+    Attributes:
+        slow: manual velocity, u/s.
+        fast: manual velocity, u/s.
+        forward: step of inching in positive direction, u.
+        backward: step of inching in negative direction, u.
+    """
+
+    slow: float
+    fast: float
+    forward: float
+    backward: float
+
+
+class ModuloConfig(NamedTuple):
+    """The modulo view of the position: its period, u, and the half width of the tolerance window, u."""
+
+    period: float = 360.0
+    tolerance: float = 0.0
 
 
 class AxisConfig(NamedTuple):
@@ -41,4 +133,6 @@ class AxisConfig(NamedTuple):
     limit_min: float
     limit_max: float
     home: HomeConfig
+    manual: ManualConfig
     monitor: MonitorConfig = MonitorConfig()
+    modulo: ModuloConfig = ModuloConfig()

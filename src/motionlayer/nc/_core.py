@@ -1,25 +1,33 @@
 """The inside of an axis: its job, and what the cycle brings to it."""
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from motionlayer.command import ErrorId, Ledger, MotionError
 from motionlayer.event import EventLog, Kind, Level
+from motionlayer.nc._axis_ref import StateDWord
+from motionlayer.nc._buffer import AxisBuffer
 from motionlayer.nc._config import AxisConfig
-from motionlayer.nc._limits import bad_target, limit_text, overrun
-from motionlayer.nc._monitors import IN_RANGE, IN_TARGET, Monitors, Seen
-from motionlayer.nc._motion import SCALED, AxisCommand, Job, JobKind, Refusal
-from motionlayer.nc._planning import AxisPlanning
+from motionlayer.nc._limits import limit_text
+from motionlayer.nc._monitors import IN_RANGE, IN_TARGET, Seen
+from motionlayer.nc._motion import (
+    BOUNDED,
+    AxisCommand,
+    HeldCommand,
+    Job,
+    JobKind,
+)
 from motionlayer.nc._reaction import REACTIONS, Reaction, status_error
 from motionlayer.nc._states import AxisEvent, AxisState
 from motionlayer.profile import PlanError
-from motionlayer.store import JOB_OTHER, Ended, Q, Store
+from motionlayer.store import JOB_OTHER, Ended, Q, Store, Watch
 
 if TYPE_CHECKING:
     from motionlayer.nc._homing import Homing
 
 
-class AxisCore(AxisPlanning):
+class AxisCore(AxisBuffer):
     """Job of one axis; `Axis` adds the commands.
 
     Args:
@@ -32,11 +40,10 @@ class AxisCore(AxisPlanning):
 
     def __init__(self, config: AxisConfig, column: int, store: Store, ledger: Ledger, events: EventLog) -> None:
         super().__init__(config, column, store, ledger, events)
-        self.homed = False
         self._homing: Homing | None = None
+        self._bound: Watch | None = None
         self._power: AxisCommand | None = None
         self._reset: AxisCommand | None = None
-        self.monitors: Monitors | None = None
         self.faulted: list[int] | None = None
         self._set_plan(self.set_position)
 
@@ -51,14 +58,7 @@ class AxisCore(AxisPlanning):
         store = self._store
         if self._homing is not None or self._held:
             return math.inf
-        passed = (store.tick - self._table[Q.TICK, self._column]) * store.dt
-        return max(0.0, float(store.end_of(self._column)[0] - passed))
-
-    @property
-    def _held(self) -> bool:
-        """Override 0 keeps the job from coming to its end."""
-        in_force = self._table[Q.OVERRIDE, self._column]
-        return self._job is not None and self._job.kind in SCALED and (self.override == 0.0 or in_force == 0.0)
+        return max(0.0, float(store.end_of(self._column)[0]) - store.since(self._column))
 
     @property
     def in_velocity(self) -> bool:
@@ -67,6 +67,15 @@ class AxisCore(AxisPlanning):
         if job is None or job.kind is not JobKind.VELOCITY or self.set_acceleration != 0.0:
             return False
         return math.isclose(self.set_velocity, job.target * self.override, rel_tol=1e-12)
+
+    @property
+    def in_end_velocity(self) -> bool:
+        """A continuous motion has passed its target and moves at its end velocity times the override."""
+        job = self._job
+        if job is None or job.end_speed == 0.0 or self.set_acceleration != 0.0:
+            return False
+        passed = job.passed != 0.0 or self._reached(job)
+        return passed and math.isclose(abs(self.set_velocity), job.end_speed * self.override, rel_tol=1e-12)
 
     @property
     def in_target(self) -> bool:
@@ -93,6 +102,8 @@ class AxisCore(AxisPlanning):
         elif not self.enabled and self._missed:
             self.fault(ErrorId.NOT_ENABLED, "the drive lost its enable")
         elif not self.enabled:
+            if self._state is AxisState.ERRORSTOP and not self._enabling:  # set and actual position part: decision 0013
+                self._table[Q.ENABLE, self._column] = 0.0
             self._enter(self._step(AxisEvent.OFF))
         if self._power is not None and bool(self._table[Q.ENABLE, self._column]) == self.enabled and not self._job:
             self._power_switched()
@@ -123,24 +134,54 @@ class AxisCore(AxisPlanning):
 
     def profile_ended(self, ended: Ended) -> None:
         """Take up that the profile came to its last piece."""
+        if ended.went_on:
+            self._guarded(lambda: self._went_on(ended))
+            return
         job = self._job
         if job is None or self._held or job.arrived:
             return
         if job.command is not None and job.kind is not JobKind.SEARCH:
             job.command.end_time = self._store.tick * self._store.dt - ended.early
-        if job.kind is JobKind.VELOCITY:
+        if job.kind in BOUNDED:
             if self._store.end_of(self._column)[2] == 0.0:
-                up = job.target > 0.0
-                self.fault(
-                    ErrorId.MAXIMUM_PASSED if up else ErrorId.MINIMUM_PASSED,
-                    limit_text(self.config, self.set_position, up=up),
-                )
+                self._at_limit(job)
         elif job.kind is JobKind.BRAKE and self._homing is not None:
             self._homing.at_rest()
-        elif job.kind is JobKind.POSITION and self.monitors is not None and self.monitors.waits(self._column):
+        elif self._waits_for_more(job):
             job.arrived = True
         elif job.kind is not JobKind.SEARCH:
             self._at_rest(job)
+
+    def _waits_for_more(self, job: Job) -> bool:
+        """Tell whether a job whose setpoint has come to its end waits: for the actual position, or to be released."""
+        if job.kind is JobKind.POSITION and self.monitors is not None and self.monitors.waits_for_target(self._column):
+            self.monitors.wait(self._column)
+            return True
+        return job.kind is JobKind.STOP and isinstance(job.command, HeldCommand) and job.command.held
+
+    def _at_limit(self, job: Job) -> None:
+        """Take up that an endless motion has come to rest on a software limit; a jog may stay there."""
+        if job.kind is JobKind.JOG:
+            job.arrived = True
+            return
+        up = self._heading > 0.0
+        error = ErrorId.MAXIMUM_PASSED if up else ErrorId.MINIMUM_PASSED
+        self.fault(error, limit_text(self.config, self.set_position, up=up))
+
+    def override_changed(self) -> None:
+        """Plan anew what only the axis can plan."""
+        if self._job is not None:
+            self._guarded(self._plan_anew)
+
+    def released(self, command: HeldCommand) -> None:
+        """Take up that a command is held no longer: a jog brakes, and what rests already ends with this tick."""
+        job = self._job
+        if job is None or job.command is not command:
+            return
+        if job.kind is JobKind.JOG:
+            self._replan(Job(JobKind.HALT, math.nan, job.limits, command))
+        elif job.arrived:
+            self._replan(Job(job.kind, math.nan, job.limits, command))
 
     def fault(self, error: ErrorId, detail: str = "") -> None:
         """Put the axis in error: the running command ends with it, and it comes to rest as `REACTIONS` says."""
@@ -148,70 +189,19 @@ class AxisCore(AxisPlanning):
         self._tell(Level.ERROR, Kind.MESSAGE, str(self.error), error)
         job = self._job
         self._drop_job()
-        self._homing = None
+        self._leave_homing()
         self._enter(self._step(AxisEvent.FAULT))
         if job is not None and job.command is not None:
             self._fail(job.command, self.error)
-        # A motion that began in this very tick is still at rest.
-        if self.set_velocity != 0.0 or self.set_acceleration != 0.0 or self.remaining_time > 0.0:
+        self._drop_follower(error=self.error)
+        # A motion that began in this very tick is still at rest; one that would begin is dropped with its row.
+        begins = self.remaining_time > 0.0 or bool(self._store.appended[self._column])
+        if self.set_velocity != 0.0 or self.set_acceleration != 0.0 or begins:
             self._replan(Job(JobKind.BRAKE, math.nan, self.config.maximum, None))
         if REACTIONS.get(error) is Reaction.POWER_OFF:
             self._cut_power()
         if self.faulted is not None:
             self.faulted.append(self._column)
-
-    def search(self, velocity: float, command: AxisCommand) -> None:
-        """Move with a signed velocity for the homing, software limits aside."""
-        limits = self.config.default._replace(velocity=abs(velocity))
-        self._replan(Job(JobKind.SEARCH, velocity, limits, command))
-
-    def brake(self, command: AxisCommand) -> None:
-        """Come to rest for the homing."""
-        self._replan(Job(JobKind.BRAKE, math.nan, self.config.default, command))
-
-    def finish_homing(self, position: float, command: AxisCommand) -> None:
-        """Redefine the present position, end the homing."""
-        self._redefine(position)
-        self.homed = True
-        self._drop_job()
-        self._homing = None
-        self._enter(self._step(AxisEvent.AT_REST))
-        self._end(command)
-
-    @property
-    def at_home_input(self) -> bool:
-        """The reference switch is on."""
-        return bool(self._table[Q.HOME_INPUT, self._column])
-
-    @property
-    def home_latch(self) -> float:
-        """Drive position at the last edge of the reference switch, in the present coordinate."""
-        return float(self._table[Q.HOME_LATCH, self._column] + self._table[Q.SHIFT, self._column])
-
-    def _start(self, job: Job, event: AxisEvent, text: str) -> None:
-        """Take a motion over, or refuse it and change nothing."""
-        command = job.command
-        assert command is not None
-        state = self._next(event, command)
-        if state is None:
-            return
-        refusal = bad_target(self.config, job, self.set_position)
-        if refusal is None:
-            try:
-                profile = self._planned(job)
-                refusal = overrun(self.config, job, profile, self.set_position)
-            except PlanError as error:
-                refusal = Refusal(ErrorId.INTERNAL, str(error))
-        if refusal is not None:
-            self._refuse(command, refusal)
-            return
-        self._accept(command, text)
-        if self._job is not None and self._job.command is not None:
-            self._end(self._job.command, by=command)
-        self._homing = None
-        self._enter(state)
-        command.activate()
-        self._adopt(job, profile)
 
     def _request_power(self, *, on: bool) -> None:
         """Ask the drive; nothing to wait for where it is so already."""
@@ -234,9 +224,18 @@ class AxisCore(AxisPlanning):
         elif power is not None:
             self._end(power)
 
+    def _leave_homing(self) -> None:
+        """No homing is under way, whatever its phase was."""
+        self._homing = None
+        self._table[Q.HOMING, self._column] = 0.0
+        if self._bound is not None:
+            self._store.unwatch(self._bound)
+            self._bound = None
+
     def _drop_job(self) -> None:
         """Nothing is being executed; an override has nothing to scale."""
         self._job = None
+        self._flag(StateDWord.HasJob | StateDWord.NewTargetPos, on=False)
         self._table[Q.JOB_KIND, self._column] = JOB_OTHER
 
     def _at_rest(self, job: Job) -> None:
@@ -244,10 +243,12 @@ class AxisCore(AxisPlanning):
         self._enter(self._step(AxisEvent.AT_REST))
         if job.command is not None:
             self._end(job.command)
+        if self._follower is not None:
+            self._guarded(self._begin_follower)
         if self._reset is not None:  # set and actual position are of one tick with the next inputs
             self._store.status_changed.append(self._column)
-        if self._power is not None and self._power.name.endswith(".disable"):
-            self._request_power(on=False)
+        if self._power is not None and self._job is None:
+            self._request_power(on=self._enabling)
 
     def _finish_reset(self) -> None:
         """Leave the error, once the drive has left its own; the set position becomes the actual one."""
@@ -264,7 +265,11 @@ class AxisCore(AxisPlanning):
 
     def _replan(self, job: Job) -> None:
         """Plan a job anew whose command is accepted already."""
+        self._guarded(lambda: self._adopt(job, self._planned(job)))
+
+    def _guarded(self, plan: Callable[[], None]) -> None:
+        """Plan what is accepted already; where that fails the axis does."""
         try:
-            self._adopt(job, self._planned(job))
+            plan()
         except PlanError as error:
             self.fault(ErrorId.INTERNAL, str(error))

@@ -19,6 +19,7 @@ STATE: Final = Q.STATE
 READY: Final = Q.READY
 LAG: Final = Q.LAG
 TARGET: Final = Q.TARGET
+WINDOWS: Final = Q.WINDOWS
 
 # Rows of the parameters: limits in u, times in ticks; infinite where a monitor is off.
 LAG_LIMIT: Final = 0
@@ -97,6 +98,7 @@ def look(table: Floats, columns: Integers, par: Floats, state: Floats, done: Int
         i = columns[k]
         bits = watch_lag(par, state, k, lag[i], ready[i])
         flags = watch_windows(par, state, k, abs(actual[i] - target[i]))
+        table[WINDOWS, i] = float(flags)
         if actual[i] < low[i] - par[MARGIN, k]:
             flags |= BELOW
         elif actual[i] > high[i] + par[MARGIN, k]:
@@ -105,7 +107,7 @@ def look(table: Floats, columns: Integers, par: Floats, state: Floats, done: Int
         if fresh != 0 and axis_state[i] >= STOPPING and axis_state[i] != HOMING and speed[i] != 0.0:
             bits |= fresh
         state[FLAGS, k] = float(flags)
-        bits |= watch_arrival(par, state, k, flags & done[k] != 0)
+        bits |= watch_arrival(par, state, k, done[k] == 0 or flags & done[k] != 0)
         if bits != 0:
             events[count, 0] = k
             events[count, 1] = bits

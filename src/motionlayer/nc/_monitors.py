@@ -82,19 +82,48 @@ class Monitors:
 
     def __init__(self, store: Store, configs: Mapping[int, MonitorConfig]) -> None:
         self._store = store
-        self._configs = configs
-        self._columns = np.array(list(configs), dtype=np.int64)
-        self._index = {column: k for k, column in enumerate(configs)}
-        rows = [_parameters(config, store.dt) for config in configs.values()]
-        self._parameters: Floats = np.ascontiguousarray(np.array(rows).reshape(-1, bits.PARAMETERS).T)
-        self._states: Floats = np.zeros((bits.STATES, len(configs)))
-        self._states[bits.WAITING] = -1.0
-        self._done = np.array([_done(config) for config in configs.values()], dtype=np.int64)
-        self._events = np.zeros((len(configs), 2), dtype=np.int64)
+        self._configs: dict[int, MonitorConfig] = {}
+        self._index: dict[int, int] = {}
+        self._columns = np.zeros(0, dtype=np.int64)
+        self._parameters: Floats = np.zeros((bits.PARAMETERS, 0))
+        self._states: Floats = np.zeros((bits.STATES, 0))
+        self._done = np.zeros(0, dtype=np.int64)
+        self._events = np.zeros((0, 2), dtype=np.int64)
+        self._add(list(configs))
+        for column, config in configs.items():
+            self._put(column, config)
         store.table[Q.TARGET, self._columns] = math.nan
+
+    def configure(self, column: int, config: MonitorConfig) -> None:
+        """Watch an axis as it says from now on."""
+        if column not in self._index:
+            if not config.any:
+                return
+            self._add([column])
+        self._put(column, config)
+
+    def _add(self, columns: list[int]) -> None:
+        """Make room for more axes."""
+        count = len(columns)
+        self._index |= {column: k for k, column in enumerate(columns, len(self._columns))}
+        self._columns = np.concatenate([self._columns, np.array(columns, dtype=np.int64)])
+        self._parameters = np.concatenate([self._parameters, np.zeros((bits.PARAMETERS, count))], axis=1)
+        fresh = np.zeros((bits.STATES, count))
+        fresh[bits.WAITING] = -1.0
+        self._states = np.concatenate([self._states, fresh], axis=1)
+        self._done = np.concatenate([self._done, np.zeros(count, dtype=np.int64)])
+        self._events = np.zeros((len(self._columns), 2), dtype=np.int64)
+
+    def _put(self, column: int, config: MonitorConfig) -> None:
+        k = self._index[column]
+        self._configs[column] = config
+        self._parameters[:, k] = _parameters(config, self._store.dt)
+        self._done[k] = _done(config)
 
     def look(self) -> list[Seen]:
         """Return what happened in this tick, one thing per axis."""
+        if not self._configs:
+            return []
         count = look(self._store.table, self._columns, self._parameters, self._states, self._done, self._events)
         return [self._seen(int(self._columns[k]), found) for k, found in self._events[:count].tolist()]
 
@@ -108,13 +137,14 @@ class Monitors:
                 return Seen(column, error, text.format(value=value, window=window, low=low, high=high, target=target))
         return Seen(column, None)
 
-    def waits(self, column: int) -> bool:
-        """Tell whether a positioning is done only when the actual position has arrived; from now on look for that."""
+    def waits_for_target(self, column: int) -> bool:
+        """Tell whether a positioning is done only when the actual position has arrived."""
         k = self._index.get(column)
-        if k is None or not self._done[k]:
-            return False
-        self._states[bits.WAITING, k] = 0.0
-        return True
+        return k is not None and bool(self._done[k])
+
+    def wait(self, column: int) -> None:
+        """From now on look for the actual position to arrive."""
+        self._states[bits.WAITING, self._index[column]] = 0.0
 
     def flag(self, column: int, flag: int) -> bool:
         """Return a flag of the last look; False where it is not watched."""

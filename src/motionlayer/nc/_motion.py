@@ -4,9 +4,10 @@ import enum
 import math
 import numbers
 from dataclasses import dataclass
-from typing import Final, NamedTuple, Protocol
+from typing import Final, NamedTuple, Protocol, TypeVar
 
 from motionlayer.command import Command, ErrorId, Ledger
+from motionlayer.nc._states import AxisEvent
 from motionlayer.profile import Limits
 
 
@@ -21,8 +22,15 @@ class Moving(Protocol):
         """The setpoint moves at the commanded velocity."""
 
     @property
+    def in_end_velocity(self) -> bool:
+        """The setpoint has passed its target and moves at the end velocity."""
+
+    @property
     def remaining_time(self) -> float:
         """Seconds until the setpoint comes to its target."""
+
+    def released(self, command: "HeldCommand") -> None:
+        """Take up that a command is held no longer."""
 
 
 class JobKind(enum.Enum):
@@ -30,14 +38,23 @@ class JobKind(enum.Enum):
 
     POSITION = "position"
     VELOCITY = "velocity"
+    CONTINUOUS = "continuous"
+    """Past a position with an end velocity, and on with it."""
+    JOG = "jog"
     HALT = "halt"
     STOP = "stop"
     SEARCH = "search"
     BRAKE = "brake"
 
 
-SCALED: Final = frozenset({JobKind.POSITION, JobKind.VELOCITY, JobKind.SEARCH})
+SCALED: Final = frozenset({JobKind.POSITION, JobKind.VELOCITY, JobKind.CONTINUOUS, JobKind.JOG, JobKind.SEARCH})
 """Kinds that the override scales, and holds at 0 %."""
+
+BOUNDED: Final = frozenset({JobKind.VELOCITY, JobKind.CONTINUOUS, JobKind.JOG})
+"""Endless kinds that come to rest on a software limit ahead."""
+
+DEFINITE: Final = frozenset({JobKind.POSITION, JobKind.HALT})
+"""Kinds with an end at which a buffered command can begin."""
 
 
 class Refusal(NamedTuple):
@@ -72,11 +89,34 @@ class AxisCommand(Command[None]):
         return self.active and self.axis.in_velocity
 
     @property
+    def in_end_velocity(self) -> bool:
+        """The setpoint has passed the target and moves at the end velocity; False once another took over."""
+        return self.active and self.axis.in_end_velocity
+
+    @property
     def remaining_time(self) -> float:
         """Seconds until the setpoint comes to its target; 0 after, infinite where there is none yet."""
         if not self.busy:
             return 0.0
         return self.axis.remaining_time if self.active else math.inf
+
+
+class HeldCommand(AxisCommand):
+    """A command that lasts for as long as it is held: a stop that keeps the axis locked, a jog key.
+
+    Attributes:
+        held: nobody has released it.
+    """
+
+    def __init__(self, axis: Moving, name: str) -> None:
+        super().__init__(axis, name)
+        self.held = True
+
+    def release(self) -> None:
+        """Let go: a stop unlocks the axis once it rests, a jog brakes. Again, or after the end, it does nothing."""
+        if self.held and self.busy:
+            self.held = False
+            self.axis.released(self)
 
 
 @dataclass(slots=True)
@@ -85,16 +125,25 @@ class Job:
 
     Attributes:
         kind: see `JobKind`.
-        target: position, or signed velocity for VELOCITY and SEARCH.
+        target: position, or signed velocity for VELOCITY, JOG and SEARCH.
         limits: as commanded, before the override.
         command: whom to tell; None for a brake that nobody waits for.
-        arrived: the setpoint has come to its target, the actual position is waited for.
+        event: what it means for the state machine when it begins; None for parts of what has begun already.
+        end_speed: magnitude of the end velocity of CONTINUOUS, before the override.
+        reach: seconds since the profile began at which CONTINUOUS passes its target.
+        passed: direction in which CONTINUOUS has passed its target, 0 before.
+        arrived: the setpoint has come to its target, and something else is waited for: the actual position, a
+            release.
     """
 
     kind: JobKind
     target: float
     limits: Limits
     command: AxisCommand | None
+    event: AxisEvent | None = None
+    end_speed: float = 0.0
+    reach: float = 0.0
+    passed: float = 0.0
     arrived: bool = False
 
 
@@ -131,6 +180,36 @@ def least_jerk(v: float, a: float, maximum: Limits) -> float:
     return min(needed, maximum.jerk)
 
 
+def required(name: str, value: float) -> float:
+    """Return a float.
+
+    Raises:
+        TypeError: it is not a number.
+    """
+    given = number(name, value)
+    if given is None:
+        raise TypeError(f"{name} is None; it must be a number")
+    return given
+
+
+E = TypeVar("E", bound=enum.Enum)
+
+
+def member(name: str, value: E, of: type[E]) -> E:
+    """Return a member of an enumeration.
+
+    Raises:
+        TypeError: it is none.
+    """
+    if not isinstance(value, of):
+        allowed = ", ".join(f"{of.__name__}.{one.name}" for one in of)
+        raise TypeError(f"{name} is {value!r}; it must be one of {allowed}")
+    return value
+
+
+Asked = tuple[float | None, float | None, float | None, float | None]
+"""Velocity, acceleration, deceleration and jerk of a command; None asks for the default."""
+
 _FIELDS: Final = (
     ("velocity", ErrorId.VELOCITY, "/s"),
     ("acceleration", ErrorId.ACCELERATION, "/s²"),
@@ -140,7 +219,7 @@ _FIELDS: Final = (
 
 
 def dynamics(
-    asked: tuple[float | None, float | None, float | None, float | None],
+    asked: Asked,
     default: Limits,
     maximum: Limits,
     unit: str,

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from motionlayer._kernel import kernel
 from motionlayer.profile import MAX_PIECES, plan
-from motionlayer.store import JOB_OTHER, JOB_POSITION, Q, Store, take_over
+from motionlayer.store import JOB_COMPOUND, JOB_OTHER, JOB_POSITION, Q, Store, take_over
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -32,6 +32,12 @@ JOB_KIND: Final = Q.JOB_KIND
 JOB_TARGET: Final = Q.JOB_TARGET
 JOB_V: Final = Q.JOB_V
 
+PLANNED: Final = 0
+FAILED: Final = 1
+"""The plan failed its check, and the old one goes on."""
+COMPOUND: Final = 2
+"""Its axis has to plan it."""
+
 
 @kernel
 def apply_overrides(
@@ -39,14 +45,15 @@ def apply_overrides(
     pieces: Floats,
     counts: Integers,
     current: Integers,
+    appended: Integers,
     out: Floats,
     scratch: Floats,
     tick: float,
-    planned: Integers,
+    concerned: Integers,
 ) -> int:
-    """Put requested overrides in force; return how many columns were planned anew.
+    """Put requested overrides in force; return how many columns it concerns.
 
-    `planned` gets their numbers; -1 - column where the plan failed its check and the old one goes on.
+    `concerned` gets their numbers, and PLANNED, FAILED or COMPOUND.
     """
     count = 0
     for i in range(counts.shape[0]):
@@ -56,6 +63,11 @@ def apply_overrides(
         table[OVERRIDE, i] = factor
         kind = table[JOB_KIND, i]
         if kind == JOB_OTHER:
+            continue
+        concerned[count, 0] = i
+        if kind >= JOB_COMPOUND:
+            concerned[count, 1] = COMPOUND
+            count += 1
             continue
         vel = table[JOB_V, i] * (factor if factor > 0.0 else 1.0)
         target = table[JOB_TARGET, i]
@@ -67,11 +79,10 @@ def apply_overrides(
         acc, dec, jerk = table[MAX_A, i], table[MAX_D, i], table[MAX_J, i]
         p, v, a = table[SET_P, i], table[SET_V, i], table[SET_A, i]
         length, _, _ = plan(out, scratch, p, v, a, target, to_position, vel, acc, dec, jerk)
-        planned[count] = i
-        if length < 0:
-            planned[count] = -1 - i
-        else:
-            take_over(table, pieces, counts, current, i, out, length, tick, 0.0)
+        concerned[count, 1] = FAILED
+        if length > 0:
+            concerned[count, 1] = PLANNED
+            take_over(table, pieces, counts, current, appended, i, out, length, tick, 0.0)
             table[MAX_V, i] = vel
         count += 1
     return count
@@ -88,15 +99,15 @@ class Overrides:
         self._store = store
         self._out = np.zeros((MAX_PIECES, 5))
         self._scratch = np.zeros((MAX_PIECES, 5))
-        self._planned = np.zeros(store.generators, dtype=np.int64)
+        self._concerned = np.zeros((store.generators, 2), dtype=np.int64)
 
-    def apply(self) -> list[int]:
-        """Put what was requested in force; return the columns whose plan failed."""
+    def apply(self) -> list[tuple[int, bool]]:
+        """Put what was requested in force; return the columns not planned here, and whether a plan of theirs failed."""
         store = self._store
-        tables = store.table, store.pieces, store.counts, store.current
-        count = apply_overrides(*tables, self._out, self._scratch, float(store.tick), self._planned)
+        tables = store.table, store.pieces, store.counts, store.current, store.appended
+        count = apply_overrides(*tables, self._out, self._scratch, float(store.tick), self._concerned)
         if not count:
             return []
-        columns = self._planned[:count].tolist()
-        store.taken_over.update(dict.fromkeys(column for column in columns if column >= 0))
-        return [-1 - column for column in columns if column < 0]
+        concerned = self._concerned[:count].tolist()
+        store.taken_over.update(dict.fromkeys(column for column, how in concerned if how == PLANNED))
+        return [(column, how == FAILED) for column, how in concerned if how != PLANNED]

@@ -1,14 +1,21 @@
 """Plans of an axis: from a job to a profile, and into the store."""
 
 import math
+from typing import Final
 
-from motionlayer.command import Ledger
+from motionlayer.command import ErrorId, Ledger
 from motionlayer.event import EventLog
+from motionlayer.nc._axis_ref import StateDWord
 from motionlayer.nc._base import AxisBase
 from motionlayer.nc._config import AxisConfig
-from motionlayer.nc._motion import SCALED, Job, JobKind
-from motionlayer.profile import Limits, Profile, plan_position, plan_stop, plan_velocity
-from motionlayer.store import JOB_OTHER, JOB_POSITION, JOB_VELOCITY, Q, Store
+from motionlayer.nc._limits import bad_target, missing_feed, overrun
+from motionlayer.nc._motion import BOUNDED, SCALED, Job, JobKind, Refusal
+from motionlayer.nc._ways import Point, Way, limit_ahead, way_of
+from motionlayer.profile import MAX_PIECES, Limits, PlanError
+from motionlayer.store import JOB_COMPOUND, JOB_OTHER, JOB_POSITION, JOB_VELOCITY, Q, Store
+
+ROW_PIECES: Final = 4 * MAX_PIECES
+"""Most pieces of what an axis follows: a running and a buffered motion of two plans each."""
 
 
 class AxisPlanning(AxisBase):
@@ -18,48 +25,87 @@ class AxisPlanning(AxisBase):
         super().__init__(config, column, store, ledger, events)
         self._job: Job | None = None
         self._ran: Limits | None = None
+        self._commanded: float | None = None
+        """The last commanded target, reached or not; None in endless motion and where it means nothing any more."""
+        self._heading = 1.0
+        """Direction of the present motion, or of the last one."""
+        self._feed = (True, True)
+        """Motion is released in positive and in negative direction."""
 
-    def _planned(self, job: Job) -> Profile:
+    @property
+    def _held(self) -> bool:
+        """Override 0 keeps the job from coming to its end."""
+        in_force = self._table[Q.OVERRIDE, self._column]
+        return self._job is not None and self._job.kind in SCALED and (self.override == 0.0 or in_force == 0.0)
+
+    @property
+    def _here(self) -> Point:
+        return Point(self.set_position, self.set_velocity, self.set_acceleration)
+
+    def _planned(self, job: Job) -> Way:
         """Plan a job from the present setpoint, with the override.
 
         Raises:
             PlanError: the plan failed its check.
         """
-        state = (self.set_position, self.set_velocity, self.set_acceleration)
-        limits = self._scaled(job)
-        if job.kind not in SCALED or self.override == 0.0:
-            return plan_stop(*state, limits)
-        if job.kind is JobKind.POSITION:
-            return plan_position(*state, job.target, limits)
-        end = self._limit_ahead(job)
-        if job.kind is JobKind.VELOCITY and math.isfinite(end):
-            return plan_position(*state, end, limits)
-        return plan_velocity(*state, math.copysign(limits.velocity, job.target), limits)
+        return way_of(self.config, job, self._here, self.override)
 
-    def _scaled(self, job: Job) -> Limits:
-        factor = self.override
-        if job.kind not in SCALED or factor in {0.0, 1.0}:
-            return job.limits
-        return job.limits._replace(velocity=job.limits.velocity * factor)
+    def _checked(self, job: Job, start: Point) -> Way | Refusal:
+        """Plan a job, or tell why it must not begin at `start`."""
+        refusal = bad_target(self.config, job, start.p)
+        if refusal is not None:
+            return refusal
+        try:
+            way = way_of(self.config, job, start, self.override)
+        except PlanError as error:
+            return Refusal(ErrorId.INTERNAL, str(error))
+        return self._objection(job, way, start.p) or way
 
-    def _adopt(self, job: Job, profile: Profile) -> None:
-        """Hand a profile to the store, put its limits in force, and leave there what a change of override needs."""
-        table, column = self._table, self._column
-        if table[Q.TICK, column] != self._store.tick:  # else the job was replaced without having moved
+    def _objection(self, job: Job, way: Way, start: float) -> Refusal | None:
+        """Tell why a way that begins at `start` is not taken."""
+        return overrun(self.config, job, way.profile, start) or missing_feed(job, way.profile, start, self._feed)
+
+    def _adopt(self, job: Job, way: Way) -> None:
+        """Hand a profile to the store, and put its job in force."""
+        if self._table[Q.TICK, self._column] != self._store.tick:  # else the job was replaced without having moved
             self._ran = self._job.limits if self._job is not None else None
+        self._store.adopt(self._column, way.profile.pieces)
+        self._put_in_force(job, way)
+
+    def _put_in_force(self, job: Job, way: Way) -> None:
+        """Note a job as the one that moves the axis, and leave in the store what a change of override needs."""
+        table, column = self._table, self._column
         self._job = job
-        self._store.adopt(column, profile.pieces)
-        table[Q.MAX_V : Q.MAX_J + 1, column] = self._scaled(job)
+        self._show_job(job)
+        table[Q.MAX_V : Q.MAX_J + 1, column] = way.limits
         table[Q.OVERRIDE, column] = self.override
-        kind, target = JOB_OTHER, 0.0
-        if job.kind in SCALED:
-            bounded = job.kind is JobKind.VELOCITY and math.isfinite(self._limit_ahead(job))
-            kind = JOB_POSITION if bounded or job.kind is JobKind.POSITION else JOB_VELOCITY
-            target = self._limit_ahead(job) if bounded else job.target
-        end = profile.pieces[-1]
-        table[Q.TARGET, column] = job.target if job.kind is JobKind.POSITION else end[1] if end[2] == 0.0 else math.nan
+        kind, target = self._scalable(job)
+        end = way.end
+        table[Q.TARGET, column] = job.target if job.kind is JobKind.POSITION else end.p if end.v == 0.0 else math.nan
         command = job.command.number if job.command is not None else 0
         table[Q.JOB_KIND : Q.COMMAND + 1, column] = (kind, target, job.limits.velocity, command)
+        if job.kind in SCALED:
+            self._commanded = job.target if job.kind is JobKind.POSITION else None
+            forward = end.v if end.v != 0.0 else end.p - float(way.profile.pieces[0, 1])
+            self._heading = math.copysign(1.0, forward) if forward != 0.0 else self._heading
+
+    def _show_job(self, job: Job) -> None:
+        """Show in the flags of the interface that a job begins."""
+        scaled = job.kind in SCALED
+        self._flag(StateDWord.HasJob, on=True)
+        self._flag(StateDWord.HasBeenStopped, on=not scaled)
+        self._flag(StateDWord.NewTargetPos, on=scaled and self.set_velocity != 0.0)
+
+    def _scalable(self, job: Job) -> tuple[int, float]:
+        """Return how the override scales a job: a kind of `store.JOB_*`, and its target."""
+        if job.kind not in SCALED:
+            return JOB_OTHER, 0.0
+        if job.kind is JobKind.CONTINUOUS:
+            return JOB_COMPOUND, 0.0
+        end = limit_ahead(self.config, job.target)
+        if job.kind in BOUNDED and math.isfinite(end):
+            return JOB_POSITION, end
+        return (JOB_POSITION if job.kind is JobKind.POSITION else JOB_VELOCITY), job.target
 
     def _running(self) -> Limits:
         """Return the dynamics that a brake must not fall short of: those of the job that moves the axis."""
@@ -69,10 +115,6 @@ class AxisPlanning(AxisBase):
         if self._ran is None or self._table[Q.TICK, self._column] != self._store.tick:
             return limits
         return Limits(*(max(pair) for pair in zip(limits, self._ran, strict=True)))
-
-    def _limit_ahead(self, job: Job) -> float:
-        """Return the software limit that an endless motion goes towards."""
-        return self.config.limit_max if job.target > 0.0 else self.config.limit_min
 
     def _redefine(self, position: float) -> None:
         """Give the place where the axis stands another position: set, actual and drive stay where they are."""
@@ -84,5 +126,6 @@ class AxisPlanning(AxisBase):
     def _set_plan(self, position: float) -> None:
         """Let the setpoint of the resting axis be `position`, from this very tick on."""
         self._store.place(self._column, position)
+        self._commanded = None
         self._table[Q.TARGET, self._column] = position
         self._table[Q.MAX_V : Q.MAX_J + 1, self._column] = self.config.maximum

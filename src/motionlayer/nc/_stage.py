@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from motionlayer.command import ErrorId
 from motionlayer.nc._axis import Axis
+from motionlayer.nc._axis_refs import AxisRefs, op_mode
 from motionlayer.nc._monitors import Monitors
 from motionlayer.nc._override import Overrides
 from motionlayer.nc._reaction import ErrorGroup, react
@@ -26,13 +27,33 @@ class AxisStage:
         self._groups = groups
         self._faulted: list[int] = []
         configs = {column: axis.config.monitor for column, axis in enumerate(axes) if axis.config.monitor.any}
-        self._monitors = Monitors(store, configs) if configs else None
+        self._monitors = Monitors(store, configs)
+        self._images: AxisRefs | None = None
         for axis in axes:
             axis.monitors = self._monitors
             axis.faulted = self._faulted if groups else None
+            axis.configured = self._configured
 
-    def inputs(self, _tick: int) -> None:
-        """Take up what the drives reported."""
+    @property
+    def images(self) -> AxisRefs:
+        """The cyclic interface of the axes; filled in every tick, from the first time it is asked for."""
+        if self._images is None:
+            configs = [axis.config for axis in self._axes]
+            self._images = AxisRefs(
+                self._store, [one.modulo.period for one in configs], [op_mode(one) for one in configs]
+            )
+            self._images.fill(self._store.tick)
+        return self._images
+
+    def _configured(self, column: int) -> None:
+        """Take up another configuration of an axis."""
+        config = self._axes[column].config
+        self._monitors.configure(column, config.monitor)
+        if self._images is not None:
+            self._images.configure(column, config)
+
+    def inputs(self, tick: int) -> None:
+        """Take up what the drives reported, and show it."""
         changed = self._store.status_changed
         if changed:
             for column in changed:
@@ -40,15 +61,20 @@ class AxisStage:
             changed.clear()
         if self._faulted:
             react(self._groups, self._faulted, self._axes)
+        if self._images is not None:
+            self._images.fill(tick)
 
     def accept(self, _tick: int) -> None:
         """Put requested overrides in force, after all commands of the tick."""
-        for column in self._overrides.apply():
-            self._axes[column].fault(ErrorId.INTERNAL, "the motion cannot be planned with this override")
+        for column, failed in self._overrides.apply():
+            if failed:
+                self._axes[column].fault(ErrorId.INTERNAL, "the motion cannot be planned with this override")
+            else:
+                self._axes[column].override_changed()
 
     def motion(self, tick: int) -> None:
         """Look at the monitors of this tick, sample the setpoints of the next; let commands end."""
-        seen = self._monitors.look() if self._monitors is not None else ()
+        seen = self._monitors.look()
         for ended in self._store.sample(tick + 1):
             self._axes[ended.column].profile_ended(ended)
         for one in seen:

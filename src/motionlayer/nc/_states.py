@@ -6,6 +6,7 @@ an entry that is an `ErrorId` refuses it and nothing changes. Three machines tou
 other two deliver its events:
 
 - a command brings MOVE, MOVE_ENDLESS, HALT, STOP, EMERGENCY_STOP, HOME, ENABLE, DISABLE or RESET when it is called;
+- `enable()` without a direction in which the axis moves brings FEED_LOST;
 - the drive brings READY and, at rest, OFF; readiness lost in motion is a FAULT;
 - the sampler brings AT_REST when the job has come to its end;
 - a monitor brings FAULT, which wins over everything.
@@ -54,6 +55,7 @@ class AxisEvent(enum.Enum):
     HOME = "home"
     AT_REST = "at rest"
     EMERGENCY_STOP = "emergency stop"
+    FEED_LOST = "feed enable lost"
     FAULT = "fault"
 
 
@@ -126,6 +128,7 @@ TRANSITIONS: Final[dict[AxisState, dict[AxisEvent, AxisState | ErrorId]]] = {
         _E.EMERGENCY_STOP: _S.STOPPING,
         _E.HOME: _ERROR,
         _E.AT_REST: _S.STANDSTILL,
+        _E.FEED_LOST: _S.STOPPING,
         _E.FAULT: _S.ERRORSTOP,
     },
     _S.CONTINUOUS_MOTION: {
@@ -138,6 +141,8 @@ TRANSITIONS: Final[dict[AxisState, dict[AxisEvent, AxisState | ErrorId]]] = {
         _E.STOP: _S.STOPPING,
         _E.EMERGENCY_STOP: _S.STOPPING,
         _E.HOME: _ERROR,
+        _E.AT_REST: _S.STANDSTILL,
+        _E.FEED_LOST: _S.STOPPING,
         _E.FAULT: _S.ERRORSTOP,
     },
     _S.STOPPING: {
@@ -164,6 +169,7 @@ TRANSITIONS: Final[dict[AxisState, dict[AxisEvent, AxisState | ErrorId]]] = {
         _E.EMERGENCY_STOP: _S.STOPPING,
         _E.HOME: _ERROR,
         _E.AT_REST: _S.STANDSTILL,
+        _E.FEED_LOST: _S.STOPPING,
         _E.FAULT: _S.ERRORSTOP,
     },
     _S.ERRORSTOP: {

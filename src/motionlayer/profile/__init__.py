@@ -27,8 +27,27 @@ velocity s·V, left at the one moment at which its stop ends at the target:
 The left side is monotone in t along that plan, so the moment is found by bracketing: the piece first, then the time
 inside it; in the cruise the equation is linear.
 
-*Into the motion of a target at constant velocity u.* The same with the fastest way to u in place of the stop, and
-with the distance to the moving point: u·t is taken off on the left of (3). Limits are those of the absolute motion.
+*To a point.* The position at rest is one case of a point that is at `target` at time 0, moves at w, and is met with
+velocity u and a = 0. With D(v, a -> u) and T(v, a -> u), displacement and time of the fastest way to u, its gain on
+the point takes the place of S:
+
+    p(t) - w·t + D(v(t), a(t) -> u) - w·T(v(t), a(t) -> u) = target                                   (4)
+
+w = u = 0 is (3). w = u joins a moving target; the left side is monotone again. w = 0 passes a position with velocity u.
+There, if the target lies beyond in the direction of u, the left side is constant as long as the plans to s·V and to u
+are one, and rises from then on. If it is nearer, the velocity cannot be reached (or cannot be braked down to) on the
+way that is left: the axis backs off, along the plan to -s·V, and comes again. The left side then first rises, the
+more is lost the later it comes round, and falls as soon as it goes backwards; it has one more valley if the start goes
+backwards and is about to turn. Of two crossings the first is taken.
+
+The way on which u is reached, D(v, a -> u), has one valley over the velocities u of one sign: at v + a|a|/2J, which is
+reached by bringing a to zero at once. So the velocities with which a target can be passed without backing off form an
+interval around that one; its end towards the velocity asked for is bisected.
+
+*To a state with an acceleration, at a time.* The last phase is the ramp at full jerk from a = 0 into the state,
+computed backwards: no other one needs less velocity before, nor less acceleration where v = 0. The ramp begins in a
+velocity at a time and place, and so at the end of a ride along the line through both, which is a moving point.
+The slower the velocity by way of which that point is met, the later; it is bisected.
 
 Start states outside the limits: an acceleration is taken back at full jerk at once, a velocity by the fastest way to
 its limit with a = 0. Nothing above assumes a start inside.
@@ -38,12 +57,14 @@ Trajectory Planning for Automatic Machines and Robots, chapter 3); the separate 
 and Deceleration.
 """
 
+from motionlayer.profile._kernels import MAX_PIECES
+from motionlayer.profile._passing import passable_velocity, plan_passing
 from motionlayer.profile._plan import (
-    MAX_PIECES,
     Limits,
     PlanError,
     Profile,
     plan,
+    plan_meeting,
     plan_position,
     plan_stop,
     plan_velocity,
@@ -51,7 +72,7 @@ from motionlayer.profile._plan import (
     stop_at,
 )
 from motionlayer.profile._stop import stop_displacement, stop_position
-from motionlayer.profile._synchronise import Moving, plan_synchronise
+from motionlayer.profile._synchronise import Moving, State, plan_rendezvous, plan_synchronise
 from motionlayer.profile._tolerances import RANGES, TOLERANCES
 
 __all__ = [
@@ -62,8 +83,13 @@ __all__ = [
     "Moving",
     "PlanError",
     "Profile",
+    "State",
+    "passable_velocity",
     "plan",
+    "plan_meeting",
+    "plan_passing",
     "plan_position",
+    "plan_rendezvous",
     "plan_stop",
     "plan_synchronise",
     "plan_velocity",

@@ -4,7 +4,8 @@ import math
 from typing import Final
 
 from motionlayer._kernel import kernel
-from motionlayer.profile._kernels import OUT_OF_REACH, Floats
+from motionlayer.profile._kernels import Floats, turns
+from motionlayer.profile._meet import OUT_OF_REACH
 from motionlayer.profile._tolerances import RANGES, TOLERANCES
 
 POSITION: Final = TOLERANCES.position
@@ -23,6 +24,7 @@ VELOCITY_LIMIT: Final = -5
 ACCELERATION_LIMIT: Final = -6
 END_STATE: Final = -7
 BAD_LIMITS: Final = -8
+TOO_EARLY: Final = -10
 
 REASONS: Final = {
     NOT_FINITE: "a piece is not finite",
@@ -34,6 +36,7 @@ REASONS: Final = {
     END_STATE: "the end state is missed",
     BAD_LIMITS: "a limit is not finite and above zero",
     OUT_OF_REACH: "the target is as fast as the velocity limit and stays out of reach",
+    TOO_EARLY: "the target cannot be met as early",
 }
 
 
@@ -138,14 +141,11 @@ def over_acceleration(
     t, v, a, j = piece[0], piece[2], piece[3], piece[4]
     most = max(acc, dec)
     slack = ACCELERATION * max(most, first) + blur * abs(j)
-    cuts = (0.0, duration)
-    under = a * a - 2.0 * j * v
-    if under >= 0.0:
-        below = -a - math.sqrt(under) if a > 0.0 else -a + math.sqrt(under)
-        if below != 0.0 and 0.0 < 2.0 * v / below < duration:
-            cuts = (2.0 * v / below, duration)
+    first_turn, last_turn = turns(v, a, j, duration)
     begin = 0.0
-    for cut in cuts:
+    for cut in (first_turn, last_turn, duration):
+        if not cut > begin:
+            continue
         middle = 0.5 * (begin + cut)
         speed = v + middle * (a + middle * (0.5 * j))
         pull = a + middle * j
@@ -198,24 +198,35 @@ def check_way(out: Floats, count: int, vel: float, acc: float, dec: float, jerk:
 
 
 @kernel
-def check(
-    out: Floats, count: int, target: float, to_position: bool, vel: float, acc: float, dec: float, jerk: float
-) -> int:
-    """Return FINE or the first reason to refuse a plan to rest at a position, or to a velocity."""
-    fault = check_way(out, count, vel, acc, dec, jerk)
-    if fault != FINE:
-        return fault
+def ends(out: Floats, count: int, u: float, pull: float) -> bool:
+    """Tell whether the last piece begins with velocity u and keeps the acceleration `pull`."""
     end = out[count - 1]
-    missed = end[1] != target or end[2] != 0.0 if to_position else end[2] != target
-    return END_STATE if missed or end[3] != 0.0 or end[4] != 0.0 else FINE
+    return bool(end[2] == u and end[3] == pull and end[4] == 0.0)
 
 
 @kernel
-def check_meeting(out: Floats, count: int, p: float, u: float, vel: float, acc: float, dec: float, jerk: float) -> int:
-    """Return FINE or the first reason to refuse a plan that ends in the motion p + u·t."""
+def check_velocity(out: Floats, count: int, u: float, vel: float, acc: float, dec: float, jerk: float) -> int:
+    """Return FINE or the first reason to refuse a plan to the velocity u."""
     fault = check_way(out, count, vel, acc, dec, jerk)
-    if fault != FINE:
-        return fault
+    return END_STATE if fault == FINE and not ends(out, count, u, 0.0) else fault
+
+
+@kernel
+def check_meeting(
+    out: Floats, count: int, target: float, w: float, u: float, vel: float, acc: float, dec: float, jerk: float
+) -> int:
+    """Return FINE or the first reason to refuse a plan that ends at the point target + w·t with the velocity u."""
+    fault = check_velocity(out, count, u, vel, acc, dec, jerk)
     end = out[count - 1]
-    met = end[1] == p + u * end[0] and end[2] == u and end[3] == 0.0 and end[4] == 0.0
-    return FINE if met else END_STATE
+    return END_STATE if fault == FINE and end[1] != target + w * end[0] else fault
+
+
+@kernel
+def check_arrival(
+    out: Floats, count: int, time: float, target: float, u: float, pull: float,
+    vel: float, acc: float, dec: float, jerk: float,
+) -> int:  # fmt: skip
+    """Return FINE or the first reason to refuse a plan that is at `target` with (u, pull) at `time`."""
+    fault = check_way(out, count, vel, acc, dec, jerk)
+    there = out[count - 1, 0] == time and out[count - 1, 1] == target and ends(out, count, u, pull)
+    return END_STATE if fault == FINE and not there else fault

@@ -6,12 +6,19 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from motionlayer._kernel import kernel
-from motionlayer.profile._check import BAD_LIMITS, FINE, JUMP, REASONS, check, is_limit, strays
-from motionlayer.profile._kernels import Floats, extent, to_rest, to_velocity
+from motionlayer.profile._check import (
+    BAD_LIMITS,
+    FINE,
+    JUMP,
+    REASONS,
+    check_meeting,
+    check_velocity,
+    is_limit,
+    strays,
+)
+from motionlayer.profile._kernels import MAX_PIECES, Floats, extent, to_velocity, without_sliver
+from motionlayer.profile._meet import begin, to_point
 from motionlayer.profile._stop import stop_displacement, stop_position
-
-MAX_PIECES: Final = 20
-"""Most pieces of a plan: three ramps and a correction on each way, twice, and the endless last one."""
 
 
 class Limits(NamedTuple):
@@ -31,8 +38,8 @@ class Profile(NamedTuple):
     """A checked plan.
 
     Attributes:
-        pieces: shape (k, 5): seconds since the start, p, v, a at the start of the piece, jerk. The last one has
-            jerk and acceleration zero and goes on for ever.
+        pieces: shape (k, 5): seconds since the start, p, v, a at the start of the piece, jerk. The last one goes on
+            for ever with jerk zero, and with acceleration zero but after a rendezvous.
         low: least position until the last piece.
         high: greatest position until the last piece.
     """
@@ -52,21 +59,70 @@ _scratch: Final = np.zeros((MAX_PIECES, 5))
 
 
 @kernel
-def without_sliver(out: Floats, count: int) -> int:
-    """Leave out a first piece whose jerk changes neither acceleration nor velocity by more than rounding does.
+def are_limits(vel: float, acc: float, dec: float, jerk: float) -> bool:
+    """Tell whether all limits are finite and above zero."""
+    return is_limit(vel) and is_limit(acc) and is_limit(dec) and is_limit(jerk)
 
-    Rounding makes such pieces at time 0, where the clock resolves what it cannot resolve later.
+
+@kernel
+def moved(out: Floats, count: int, p: float) -> int:
+    """Move a plan made from displacement 0 to where the axis stands; return its pieces without slivers.
+
+    Plans are made from displacement 0, so that their precision does not depend on where the axis stands.
     """
-    while count > 2 and out[0, 4] != 0.0:
-        duration, v, a = out[1, 0], out[0, 2], out[0, 3]
-        if abs(duration * out[0, 4]) > 1e-14 * abs(a) or abs(duration * a) > 1e-14 * abs(v):
-            break
-        count -= 1
-        for k in range(count):
-            for field in range(5):
-                out[k, field] = out[k + 1, field]
-        out[0, 0] = 0.0
+    count = without_sliver(out, count)
+    for k in range(count):
+        out[k, 1] += p
     return count
+
+
+@kernel
+def begun(out: Floats, count: int, p: float, v: float, a: float, vel: float, pull: float) -> bool:
+    """Put the exact start into a plan: rounding may have touched it, and the check sees the joint to the next piece.
+
+    A single piece has none: tell whether it begins at the start.
+    """
+    if count == 1:
+        return not strays(out[0], p, v, a, vel, pull)
+    out[0, 1] = p
+    out[0, 2] = v
+    out[0, 3] = a
+    return True
+
+
+@kernel
+def plan_meeting(
+    out: Floats, scratch: Floats, p: float, v: float, a: float, target: float, w: float, u: float,
+    vel: float, acc: float, dec: float, jerk: float,
+) -> tuple[int, float, float]:  # fmt: skip
+    """Plan to the point target + w·t with the end velocity u, check; return (pieces or fault, least, greatest p).
+
+    Args:
+        out: gets the pieces; MAX_PIECES rows.
+        scratch: as large.
+        p: start position, u.
+        v: start velocity, u/s.
+        a: start acceleration, u/s².
+        target: where the point is at time 0.
+        w: the velocity of the point.
+        u: the velocity at the end, and from there on.
+        vel: velocity limit.
+        acc: acceleration limit.
+        dec: deceleration limit.
+        jerk: jerk limit.
+    """
+    if not are_limits(vel, acc, dec, jerk):
+        return BAD_LIMITS, p, p
+    count = to_point(out, scratch, target - p, w, u, math.inf, v, a, vel, acc, dec, jerk)
+    if count < 0:
+        return count, p, p
+    count = moved(out, count, p)
+    out[count - 1, 1] = target + w * out[count - 1, 0]
+    if not begun(out, count, p, v, a, vel, max(acc, dec)):
+        return JUMP, p, p
+    fault = check_meeting(out, count, target, w, u, vel, acc, dec, jerk)
+    low, high = extent(out, count)
+    return (count if fault == FINE else fault), low, high
 
 
 @kernel
@@ -74,34 +130,19 @@ def plan(
     out: Floats, scratch: Floats, p: float, v: float, a: float, target: float, to_position: bool,
     vel: float, acc: float, dec: float, jerk: float,
 ) -> tuple[int, float, float]:  # fmt: skip
-    """Plan, shift to the absolute position, check; return (pieces or fault, least, greatest position).
-
-    The plan is made from displacement 0, so that its precision does not depend on where the axis stands.
-    """
-    if not (is_limit(vel) and is_limit(acc) and is_limit(dec) and is_limit(jerk)):
+    """Plan to rest at the position `target`, or to the velocity `target`; else as `plan_meeting`."""
+    if to_position:
+        return plan_meeting(out, scratch, p, v, a, target, 0.0, 0.0, vel, acc, dec, jerk)
+    if not are_limits(vel, acc, dec, jerk):
         return BAD_LIMITS, p, p
-    out[0, 0] = 0.0
-    out[0, 1] = 0.0
-    out[0, 2] = v
-    out[0, 3] = a
-    if to_position:
-        count = to_rest(out, scratch, target - p, vel, acc, dec, jerk)
-    else:
-        count = to_velocity(out, target, acc, dec, jerk)
-        if target == 0.0 and count > 1:  # the same end as `stop_position`, bit for bit
-            out[count - 1, 1] = stop_displacement(v, a, dec, jerk)
-    count = without_sliver(out, count)
-    for k in range(count):
-        out[k, 1] += p
-    if to_position:
-        out[count - 1, 1] = target
-    if count > 1:  # rounding may have touched the start; the check sees the joint to the next piece
-        out[0, 1] = p
-        out[0, 2] = v
-        out[0, 3] = a
-    elif strays(out[0], p, v, a, vel, max(acc, dec)):
+    begin(out, v, a)
+    count = to_velocity(out, target, acc, dec, jerk)
+    if target == 0.0 and count > 1:  # the same end as `stop_position`, bit for bit
+        out[count - 1, 1] = stop_displacement(v, a, dec, jerk)
+    count = moved(out, count, p)
+    if not begun(out, count, p, v, a, vel, max(acc, dec)):
         return JUMP, p, p
-    fault = check(out, count, target, to_position, vel, acc, dec, jerk)
+    fault = check_velocity(out, count, target, vel, acc, dec, jerk)
     low, high = extent(out, count)
     return (count if fault == FINE else fault), low, high
 

@@ -1,4 +1,4 @@
-"""Synchronising with a target that moves at constant velocity."""
+"""Joining what moves: a target at constant velocity as early as possible, a state at a given time."""
 
 import math
 from typing import Final, NamedTuple
@@ -6,12 +6,12 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from motionlayer._kernel import kernel
-from motionlayer.profile._check import BAD_LIMITS, FINE, JUMP, REASONS, check_meeting, is_limit, strays
-from motionlayer.profile._kernels import Floats, extent, steady_displacement, to_meet, to_velocity
-from motionlayer.profile._plan import MAX_PIECES, Limits, PlanError, Profile
-
-HALVINGS: Final = 1100
-"""Most halvings of a bracket: a float64 between 0 and its largest value needs 1075."""
+from motionlayer.profile._check import BAD_LIMITS, FINE, JUMP, REASONS, TOO_EARLY, check_arrival
+from motionlayer.profile._kernels import MAX_PIECES, Floats, extent, push
+from motionlayer.profile._meet import to_point
+from motionlayer.profile._passing import plan_passing
+from motionlayer.profile._plan import Limits, PlanError, Profile, are_limits, begun, moved, plan_meeting
+from motionlayer.profile._tolerances import TOLERANCES
 
 _out: Final = np.zeros((MAX_PIECES, 5))
 _scratch: Final = np.zeros((MAX_PIECES, 5))
@@ -24,83 +24,56 @@ class Moving(NamedTuple):
     velocity: float
 
 
-@kernel
-def meet(
-    out: Floats, scratch: Floats, s: float, goal: float, u: float, cruise: float,
-    v: float, a: float, acc: float, dec: float, jerk: float,
-) -> int:  # fmt: skip
-    """Plan from (0, v, a) to the motion goal + u·t by way of the velocity `cruise`: see `to_meet`."""
-    out[0, 0] = 0.0
-    out[0, 1] = 0.0
-    out[0, 2] = v
-    out[0, 3] = a
-    return to_meet(out, scratch, s, goal, u, cruise, acc, dec, jerk)
+class State(NamedTuple):
+    """Where something is (u), how fast (u/s), and how its velocity changes (u/s²)."""
+
+    position: float
+    velocity: float
+    acceleration: float
 
 
 @kernel
-def meet_by(
-    out: Floats, scratch: Floats, goal: float, u: float, time: float,
-    v: float, a: float, vel: float, acc: float, dec: float, jerk: float,
-) -> int:  # fmt: skip
-    """Plan from (0, v, a) to the motion goal + u·t, in it as late as possible but not after `time`.
-
-    The slower the velocity by way of which, the later: as it nears u, the time grows beyond all bounds. It is bisected
-    down to neighbouring floats; the earlier of the two is taken. An infinite time asks for the earliest meeting.
-    """
-    direct = steady_displacement(scratch, v, a, u, acc, dec, jerk)
-    out[0, 0] = 0.0
-    out[0, 1] = 0.0
-    out[0, 2] = v
-    out[0, 3] = a
-    if goal == direct:
-        count = to_velocity(out, u, acc, dec, jerk)
-        out[count - 1, 1] = goal + u * out[count - 1, 0]
-        return count
-    s = 1.0 if goal > direct else -1.0
-    fast, slow = s * vel, u
-    count = meet(out, scratch, s, goal, u, fast, v, a, acc, dec, jerk)
-    if count < 0 or time == math.inf or out[count - 1, 0] > time:
-        return count
-    for _ in range(HALVINGS):
-        middle = slow + 0.5 * (fast - slow)
-        if middle in (slow, fast):
-            break
-        count = meet(out, scratch, s, goal, u, middle, v, a, acc, dec, jerk)
-        if count > 0 and out[count - 1, 0] <= time:
-            fast = middle
-        else:
-            slow = middle
-    return meet(out, scratch, s, goal, u, fast, v, a, acc, dec, jerk)
+def ramp_into(velocity: float, pull: float, jerk: float) -> tuple[float, float, float]:
+    """Return duration, way and first velocity of the ramp at full jerk from acceleration zero into (velocity, pull)."""
+    duration = abs(pull) / jerk
+    j = jerk if pull > 0.0 else -jerk
+    way = duration * (velocity - duration * (0.5 * pull - duration * (j / 6.0)))
+    return duration, way, velocity - 0.5 * duration * pull
 
 
 @kernel
-def plan_meeting(
-    out: Floats, scratch: Floats, p: float, v: float, a: float, position: float, u: float, time: float,
-    vel: float, acc: float, dec: float, jerk: float,
+def plan_arrival(
+    out: Floats, scratch: Floats, p: float, v: float, a: float, position: float, velocity: float, pull: float,
+    time: float, vel: float, acc: float, dec: float, jerk: float,
 ) -> tuple[int, float, float]:  # fmt: skip
-    """Plan, shift to the absolute position, check; return (pieces or fault, least, greatest position)."""
-    if not (is_limit(vel) and is_limit(acc) and is_limit(dec) and is_limit(jerk)):
-        return BAD_LIMITS, p, p
-    count = meet_by(out, scratch, position - p, u, time, v, a, vel, acc, dec, jerk)
-    if count < 0:
-        return count, p, p
-    for k in range(count):
-        out[k, 1] += p
-    end = out[count - 1]
-    end[1] = position + u * end[0]
-    if count > 1:  # as in `plan`
-        out[0, 1] = p
-        out[0, 2] = v
-        out[0, 3] = a
-    elif strays(end, p, v, a, vel, max(acc, dec)):
+    """Plan to be at (position, velocity, pull) at `time`, check; return (pieces or fault, least, greatest p).
+
+    The way ends with a ramp of full jerk from acceleration zero to `pull`. Before it lies a ride at constant velocity,
+    and that is met like any moving point. Limits are finite and above zero.
+    """
+    gaining, way, w = ramp_into(velocity, pull, jerk)
+    ramp_at = time - gaining
+    goal = (position - p) - way - w * ramp_at
+    count = to_point(out, scratch, goal, w, w, ramp_at, v, a, vel, acc, dec, jerk)
+    if count < 0 or out[count - 1, 0] > ramp_at:
+        return TOO_EARLY, p, p
+    joined = out[count - 1, 0]
+    out[count - 1, 1] = goal + w * joined
+    last = push(out, count - 1, 0.0, ramp_at - joined)
+    last = push(out, last, jerk if pull > 0.0 else -jerk, gaining)
+    end = out[last]
+    end[0], end[1], end[2], end[3], end[4] = time, position - p, velocity, pull, 0.0
+    count = moved(out, last + 1, p)
+    out[count - 1, 1] = position
+    if not begun(out, count, p, v, a, vel, max(acc, dec)):
         return JUMP, p, p
-    fault = check_meeting(out, count, position, u, vel, acc, dec, jerk)
+    fault = check_arrival(out, count, time, position, velocity, pull, vel, acc, dec, jerk)
     low, high = extent(out, count)
     return (count if fault == FINE else fault), low, high
 
 
-def plan_synchronise(p: float, v: float, a: float, target: Moving, limits: Limits, *, at: float = math.inf) -> Profile:
-    """Plan from (p, v, a) into the motion of a target; the last piece of the profile is that motion.
+def plan_synchronise(p: float, v: float, a: float, target: Moving, limits: Limits) -> Profile:
+    """Plan from (p, v, a) into the motion of a target as early as possible; the last piece is that motion.
 
     Args:
         p: start position, u.
@@ -108,27 +81,94 @@ def plan_synchronise(p: float, v: float, a: float, target: Moving, limits: Limit
         a: start acceleration, u/s², also outside the limits.
         target: the motion to join, on the clock of the profile.
         limits: in force on the way, of the absolute motion; `velocity` is at least that of the target.
-        at: the instant from which both move as one, s; without it as early as possible. The profile reaches the
-            target's motion then, or as little before as its numbers allow; where the fastest way to its velocity
-            happens to end in its motion, already there.
 
     Returns:
         The profile; `low` and `high` are its extent until the last piece begins.
 
     Raises:
-        ValueError: the target is faster than the velocity limit, or `at` is before 0 or no number.
-        PlanError: the target stays out of reach (it is as fast as the limit and ahead), cannot be met as early as
-            `at`, or the result failed its check.
+        ValueError: the target is faster than the velocity limit.
+        PlanError: the target stays out of reach (it is as fast as the limit and ahead), or the result failed its check.
     """
     if not math.fabs(target.velocity) <= limits.velocity:
         raise ValueError(f"the target's velocity {target.velocity} is above the limit {limits.velocity}")
-    if not at >= 0.0:
-        raise ValueError(f"the time of meeting is {at}; it must be >= 0")
-    count, low, high = plan_meeting(_out, _scratch, p, v, a, *target, at, *limits)
-    call = f"plan_synchronise({p!r}, {v!r}, {a!r}, {target!r}, {limits!r}, at={at!r})"
+    position, u = target
+    count, low, high = plan_meeting(_out, _scratch, p, v, a, position, u, u, *limits)
     if count < 0:
-        raise PlanError(f"{REASONS[count]}: {call}")
-    earliest = float(_out[count - 1, 0])
-    if earliest > at:
-        raise PlanError(f"the target cannot be met before {earliest} s: {call}")
+        raise PlanError(f"{REASONS[count]}: plan_synchronise({p!r}, {v!r}, {a!r}, {target!r}, {limits!r})")
     return Profile(_out[:count].copy(), low, high)
+
+
+def plan_rendezvous(p: float, v: float, a: float, target: State, limits: Limits, *, at: float) -> Profile:
+    """Plan from (p, v, a) so as to be in the state `target` at the instant `at`, for couplings.
+
+    The target's acceleration is gained from zero at full jerk at the very end: a plan made anew after that ramp has
+    begun would first have to take it back. Before the ramp the profile rides along at constant velocity.
+
+    Args:
+        p: start position, u.
+        v: start velocity, u/s, also outside the limits.
+        a: start acceleration, u/s², also outside the limits.
+        target: the state to be in; its velocity before the ramp has to be inside the limits too.
+        limits: in force on the way, of the absolute motion.
+        at: when, s since the start of the profile.
+
+    Returns:
+        The profile. Its last piece begins in exactly `target` at exactly `at`, and keeps that acceleration for ever:
+        whoever follows the target has to take over there. `low` and `high` are the extent until then.
+
+    Raises:
+        ValueError: the target is outside the limits, or `at` is not finite or before the end of the ramp.
+        PlanError: a limit is not finite and above zero, the target cannot be met at `at` (the message says when it
+            can), or the result failed its check.
+    """
+    count, low, high = BAD_LIMITS, p, p
+    if are_limits(*limits):
+        _require_reachable(target, limits, at)
+        count, low, high = plan_arrival(_out, _scratch, p, v, a, *target, at, *limits)
+    if count < 0:
+        reason = _missed(p, v, a, target, limits, at) if count == TOO_EARLY else REASONS[count]
+        raise PlanError(f"{reason}: plan_rendezvous({p!r}, {v!r}, {a!r}, {target!r}, {limits!r}, at={at!r})")
+    return Profile(_out[:count].copy(), low, high)
+
+
+def _missed(p: float, v: float, a: float, target: State, limits: Limits, at: float) -> str:
+    """Say why a target is not met at a time, and when it can be.
+
+    The times at which it can be met need not be one interval: who comes along fast, and is to be there a little later
+    than soon, cannot slow down so much and has to back off.
+    """
+    position, velocity, pull = target
+    gaining, way, before = ramp_into(velocity, pull, limits.jerk)
+    earliest = plan_passing(p, v, a, position - way, before, limits).duration + gaining
+    if at < earliest:
+        return f"the target cannot be met before {earliest} s"
+    return f"the target can be met at {earliest} s, and then only later than at {at} s, with time to back off"
+
+
+def _require_reachable(target: State, limits: Limits, at: float) -> None:
+    """Raise ValueError with the reason why no way whatever leads into the target under the limits."""
+    _, u, pull = target
+    vel, acc, dec, jerk = limits
+    if not math.fabs(u) <= vel:
+        raise ValueError(f"the target's velocity {u} is above the limit {vel}")
+    name, limit = ("acceleration", acc) if u * pull > 0.0 else ("deceleration", dec)
+    if not math.fabs(pull) <= limit:
+        raise ValueError(f"the target's acceleration {pull} at velocity {u} is above the {name} limit {limit}")
+    gaining, _, before = ramp_into(u, pull, jerk)
+    if not math.fabs(before) <= vel:
+        raise ValueError(
+            f"the target's acceleration {pull} at velocity {u} can only be gained from velocity {before}, "
+            f"which is above the limit {vel}"
+        )
+    if before * pull < 0.0 and u * pull >= 0.0:  # the ramp passes v = 0
+        passing = math.sqrt(2.0 * jerk * math.fabs(before))
+        if not passing <= min(acc, dec) * (1.0 + TOLERANCES.acceleration):
+            raise ValueError(
+                f"the target's acceleration {pull} at velocity {u} is gained through velocity 0 with {passing} there, "
+                f"which is above the lower of the limits {acc} and {dec}"
+            )
+    if not gaining <= at < math.inf:
+        raise ValueError(
+            f"the time of meeting is {at} s; it must be finite and at least {gaining} s, what the ramp to the target's "
+            "acceleration takes"
+        )

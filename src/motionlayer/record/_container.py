@@ -4,7 +4,7 @@ import json
 import re
 import struct
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any, Final, NamedTuple
 
 from motionlayer.record._errors import TraceError
@@ -21,8 +21,10 @@ CHUNK_HEAD: Final = CHUNK.size + CRC.size
 ROWS: Final = b"ROWS"
 PLAN: Final = b"PLAN"
 EVENT: Final = b"EVNT"
+INPUT: Final = b"INPT"
+GAP: Final = b"GAP "
 TAIL: Final = b"TAIL"
-TAGS: Final = (ROWS, PLAN, EVENT, TAIL)
+TAGS: Final = (ROWS, PLAN, EVENT, INPUT, GAP, TAIL)
 
 
 class Chunk(NamedTuple):
@@ -48,8 +50,24 @@ def pack_head(header: Header) -> bytes:
 
 def pack_chunk(tag: bytes, payload: bytes) -> bytes:
     """Return a chunk."""
-    head = CHUNK.pack(tag, len(payload))
-    return b"".join((head, CRC.pack(zlib.crc32(payload, zlib.crc32(head))), payload))
+    return b"".join(pack_parts(tag, len(payload), (payload,)))
+
+
+def pack_parts(tag: bytes, size: int, parts: Iterable[bytes | memoryview]) -> list[bytes | memoryview]:
+    """Return the parts of a chunk; a payload that comes in parts is neither joined nor copied.
+
+    Args:
+        tag: four bytes.
+        size: of all parts, in bytes.
+        parts: the payload; the checksum of each is taken before the next one is asked for.
+    """
+    head = CHUNK.pack(tag, size)
+    crc = zlib.crc32(head)
+    payload = []
+    for part in parts:
+        crc = zlib.crc32(part, crc)
+        payload.append(part)
+    return [head, CRC.pack(crc), *payload]
 
 
 def unpack_head(data: memoryview, name: str) -> tuple[Header, int]:
@@ -121,7 +139,7 @@ def _damage(data: memoryview, offset: int) -> str:
     rest = len(data) - offset - CHUNK_HEAD
     if rest < 0:
         return ""
-    name = tag.decode()
+    name = tag.decode().rstrip()
     if CHUNK.unpack_from(data, offset)[1] <= rest:
         return f"the checksum of the {name} chunk does not fit"
     # It seems to go on behind the end of the file. If it is whole up to there, or chunks follow, its length is wrong.

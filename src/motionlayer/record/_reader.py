@@ -6,10 +6,10 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from motionlayer.event import Event
+from motionlayer.event import Event, Input
 from motionlayer.record import _container as container
 from motionlayer.record._errors import TraceError
-from motionlayer.record._records import Plan, Signal, decode_event, decode_plan
+from motionlayer.record._records import End, Gap, Plan, Signal, decode_event, decode_gap, decode_input, decode_plan
 from motionlayer.record._rows import RowBlock
 
 
@@ -22,7 +22,10 @@ class Content:
     blocks: list[RowBlock] = field(default_factory=list)
     plans: list[Plan] = field(default_factory=list)
     events: list[Event] = field(default_factory=list)
+    inputs: list[Input] = field(default_factory=list)
+    gaps: list[Gap] = field(default_factory=list)
     hash: str = ""
+    end: End | None = None
     complete: bool = False
     damage: str = ""
 
@@ -39,6 +42,10 @@ class Content:
             self.plans.append(decode_plan(payload))
         elif tag == container.EVENT:
             self.events.append(decode_event(payload))
+        elif tag == container.INPUT:
+            self.inputs.append(decode_input(payload))
+        elif tag == container.GAP:
+            self.gaps.append(decode_gap(payload))
         elif tag == container.TAIL:
             self._end(json.loads(bytes(payload)))
 
@@ -46,11 +53,13 @@ class Content:
         if self.signals and tail["ticks"] != self.ticks:  # without signals no rows are kept
             raise ValueError(f"it counts {tail['ticks']} ticks, the rows before it hold {self.ticks}")
         self.hash = str(tail["hash"])
+        end = tail.get("end")
+        self.end = None if end is None else End(*end)
         self.complete = True
 
     def spoil(self, damage: str) -> None:
         """Note damage; what is damaged is neither complete nor does it have a hash."""
-        self.damage, self.complete, self.hash = damage, False, ""
+        self.damage, self.complete, self.hash, self.end = damage, False, "", None
 
 
 def read(parts: Iterable[bytes], name: str) -> Content:
@@ -93,7 +102,7 @@ def _take(content: Content, chunk: container.Chunk | container.Break) -> str:
     try:
         content.take(chunk.tag, chunk.payload)
     except (ValueError, LookupError, TypeError, struct.error) as error:
-        return f"the {chunk.tag.decode()} chunk makes no sense: {error}"
+        return f"the {chunk.tag.decode().rstrip()} chunk makes no sense: {error}"
     return ""
 
 

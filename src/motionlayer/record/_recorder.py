@@ -1,19 +1,20 @@
 """`Recorder`: one kernel call per cycle; everything else happens in its thread, one block at a time."""
 
-import hashlib
-from collections.abc import Callable, Sequence
+import sys
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from queue import SimpleQueue
-from threading import Thread
+from types import MappingProxyType
 from typing import Any, Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from motionlayer._kernel import kernel
-from motionlayer.event import Event
+from motionlayer.event import Event, Input
+from motionlayer.record._block import MOST_RECORDS, Block, gather
 from motionlayer.record._errors import TraceError
-from motionlayer.record._records import Plan, Signal, encode_event
+from motionlayer.record._pump import Pump
+from motionlayer.record._records import End, Plan, Signal
+from motionlayer.record._sink import Mark, Sink
 from motionlayer.record._trace import Trace
 from motionlayer.record._writer import TraceWriter
 
@@ -22,60 +23,18 @@ Floats = NDArray[np.float64]
 HASHED_ROWS: Final = 4
 """The first rows of the table: set position, velocity, acceleration, actual position."""
 
-DIGEST_SIZE: Final = 16
-BLOCKS: Final = 3
-"""One is filled, one is written, one absorbs the jitter between the two."""
-
 BLOCK_BYTES: Final = 1 << 21
 BLOCK_TICKS: Final = (64, 1024)
 """Least and most ticks of a block: what its thread costs is shared by many, what a crash loses is bounded."""
 
+BLOCKS: Final = 3
+"""One is filled, one is written, one absorbs the jitter between the two."""
 
-@kernel
-def gather(flat: Floats, index: NDArray[np.int64], block: Floats, row: int) -> None:
-    """Copy the selected values of a table into a row of `block`, then as many of its first as fit."""
-    count = index.shape[0]
-    for k in range(count):
-        block[row, k] = flat[index[k]]
-    for k in range(block.shape[1] - count):
-        block[row, count + k] = flat[k]
+LOSSY_BLOCK_NS: Final = 200_000_000
+"""Most time in one block of a recorder that must not wait: what a crash loses is bounded in time as well."""
 
-
-class _Block:
-    """Rows of consecutive ticks, and the plans and events that came with them."""
-
-    __slots__ = ("count", "events", "first", "plans", "values")
-
-    def __init__(self, ticks: int, width: int) -> None:
-        self.values = np.zeros((ticks, width))
-        self.clear()
-
-    def clear(self) -> None:
-        self.first = 0
-        self.count = 0
-        self.plans: list[Plan] = []
-        self.events: list[Event] = []
-
-
-class RunHash:
-    """The hash of a run, fed block by block."""
-
-    def __init__(self) -> None:
-        self._numbers = hashlib.blake2b(digest_size=DIGEST_SIZE)
-        self._events = hashlib.blake2b(digest_size=DIGEST_SIZE)
-
-    def numbers(self, rows: Floats) -> None:
-        """Take in the hashed rows of the table, shape (ticks, 4 * columns)."""
-        self._numbers.update(rows.tobytes())
-
-    def event(self, event: Event) -> None:
-        """Take in an event; JSON escapes line ends, so one per line is unambiguous."""
-        self._events.update(encode_event(event) + b"\n")
-
-    def hexdigest(self, ticks: int) -> str:
-        """Return the hash over all that was taken in and the number of ticks."""
-        both = self._numbers.digest() + self._events.digest() + ticks.to_bytes(8, "little")
-        return hashlib.blake2b(both, digest_size=DIGEST_SIZE).hexdigest()
+LOSSY_BLOCKS: Final = 16
+"""Blocks of a recorder that must not wait: a disk that stands still for some seconds costs nothing."""
 
 
 class Recorder:
@@ -88,6 +47,11 @@ class Recorder:
         path: the file, None for memory.
         hashing: whether the hash of the run is taken.
         block_ticks: ticks per block, None for a fitting number.
+        lossless: True waits for the thread where it does not keep up, and raises what it cannot write. False, for
+            real time, never waits and raises only in `close`: rows are dropped until a block is free, their number
+            stands in the trace as a gap, and a trace that cannot be written ends there.
+        warn: told once, in the cycle thread, that the first rows are dropped, and once that the trace has ended
+            before the run; only without `lossless`.
 
     Raises:
         TraceError: the file cannot be opened.
@@ -104,74 +68,142 @@ class Recorder:
         *,
         hashing: bool = True,
         block_ticks: int | None = None,
+        lossless: bool = True,
+        warn: Callable[[str], None] = lambda _text: None,
     ) -> None:
         _check(table, signals, hashing=hashing, block_ticks=block_ticks)
         self._flat = table.reshape(-1)
         self._index = np.array([signal.index for signal in signals], dtype=np.int64)
         self._path = path
+        self._lossless = lossless
+        self._warn = warn
+        self._told = {"gap": lossless, "end": lossless}
         self._writer = _writer(signals, header, path)
-        self._hash = RunHash() if hashing else None
-        self._digest = ""
-        self._ticks = 0
-        self._error: BaseException | None = None
-        width = len(signals) + (HASHED_ROWS * table.shape[1] if hashing else 0)
-        self._capacity = block_ticks or _fitting(width)
-        self._free: SimpleQueue[_Block] = SimpleQueue()
-        self._full: SimpleQueue[_Block | None] = SimpleQueue()
-        for _ in range(BLOCKS - 1):
-            self._free.put(_Block(self._capacity, width))
-        self._block = _Block(self._capacity, width)
-        self._values = self._block.values
-        self._first = 0
-        self._count = 0
-        # A daemon: a run that dies without closing must not hang; its file is readable to the last block.
-        self._thread = Thread(target=self._work, name="trace writer", daemon=True)
-        self._thread.start()
-        gather(self._flat, self._index, self._values, 0)  # compiled before the first cycle
+        self._sink = Sink(self._writer, hashing=hashing)
+        hashed = HASHED_ROWS * table.shape[1] if hashing else 0
+        self._capacity = block_ticks or _fitting(len(signals) + hashed, header["base_cycle_ns"], lossless=lossless)
+        most = sys.maxsize if lossless else MOST_RECORDS
+        count = BLOCKS if lossless else LOSSY_BLOCKS
+        self._pump = Pump(self._sink, [Block(self._capacity, len(signals), hashed, most) for _ in range(count)])
+        self._spare = Block(0, len(signals), hashed, most)
+        """Stands in where no block is free: it has room for records, not for rows."""
+        self._block = self._spare
+        self._first = self._count = 0
+        self._begin(0)
+        gather(self._flat, self._index, self._block.values, self._block.hashed, 0)  # compiled before the first cycle
+
+    @property
+    def in_memory(self) -> bool:
+        """Whether the recording can go back."""
+        return self._path is None
+
+    @property
+    def dropping(self) -> bool:
+        """Whether rows are dropped at present, because no block is free."""
+        return self._block is self._spare
 
     def capture(self, tick: int) -> None:
         """Record the table as it is now as the values of `tick`.
 
         Raises:
-            TraceError: an earlier block could not be written.
+            TraceError: an earlier block could not be written (only if lossless).
             ValueError: the recorder is closed.
         """
         row = self._count
         if row == self._capacity or tick - self._first != row:
-            self._begin(tick)
+            if not self._begin(tick):
+                return
             row = 0
-        gather(self._flat, self._index, self._values, row)
+        block = self._block
+        gather(self._flat, self._index, block.values, block.hashed, row)
         self._count = row + 1
 
     def plan(self, plan: Plan) -> None:
         """Record a profile that was taken over."""
-        self._block.plans.append(plan)
+        self._block.keep(self._block.plans, plan)
 
     def event(self, event: Event) -> None:
         """Record an event."""
-        self._block.events.append(event)
+        self._block.keep(self._block.events, event)
 
-    def close(self) -> str:
-        """Write what is left, end the thread and return the hash in hexadecimal ("" without hashing).
+    def input(self, what: Input) -> None:
+        """Record something that came from outside."""
+        self._block.keep(self._block.inputs, what)
+
+    def mark(self) -> Mark:
+        """Return a mark to go back to: all that has been recorded until now. Waits until the thread has taken it in.
+
+        Raises:
+            TraceError: something could not be written (only if lossless).
+            ValueError: the recorder is closed.
+        """
+        self._require_open()
+        if self.dropping:
+            self._change_block(wait=True)
+        self._hand_over()
+        self._change_block(wait=True)
+        self._count = 0
+        mark = self._pump.mark()
+        self._check_pump()
+        return mark
+
+    def go_back(self, mark: Mark, changes: Mapping[str, Any] = MappingProxyType({})) -> None:
+        """Forget what was recorded since a mark; the recording goes on from there. It costs some microseconds.
+
+        Args:
+            mark: of this recorder.
+            changes: of the header from now on.
+
+        Raises:
+            TraceError: it is written to a file, which cannot be taken back.
+            ValueError: the recorder is closed.
+        """
+        self.require_memory()
+        if self.dropping:
+            self._change_block(wait=True)
+        self._block.clear()
+        self._count = 0
+        self._pump.go_back(mark, changes)
+
+    def require_memory(self) -> None:
+        """Make sure that the recording can go back.
+
+        Raises:
+            TraceError: it is written to a file.
+            ValueError: the recorder is closed.
+        """
+        self._require_open()
+        if self._path is not None:
+            raise TraceError(f"{self._path}: a trace that is written to a file cannot go back; keep it in memory")
+
+    def close(self, end: End | None = None) -> str:
+        """Write what is left, end the thread and return the hash in hexadecimal.
+
+        It is "" without hashing, and if rows or records had to be dropped.
+
+        Args:
+            end: how the run ended; counts when the recorder is closed for the first time.
 
         Raises:
             TraceError: something could not be written; the file ends with its last whole block.
         """
-        if self._thread.is_alive():
+        if self._pump.running:
+            if self.dropping:
+                self._change_block(wait=True)
             self._hand_over()
-            self._full.put(None)
-            self._thread.join()
+            self._sink.end = end
+            self._pump.close()
             self._count = self._capacity  # the next capture looks for a block and finds it closed
-        self._check_writer()
-        return self._digest
+        self._pump.check()
+        return self._sink.digest
 
-    def trace(self) -> Trace:
+    def trace(self, end: End | None = None) -> Trace:
         """Close, and return what was recorded.
 
         Raises:
             TraceError: something could not be written, or nothing was to be kept.
         """
-        self.close()
+        self.close(end)
         if self._writer is None:
             raise TraceError("nothing was recorded but the hash; select signals to keep a trace")
         return Trace.load(self._path) if self._path else Trace.from_chunks(self._writer.chunks)
@@ -182,68 +214,57 @@ class Recorder:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def _begin(self, tick: int) -> None:
-        """Start a block at `tick`; a jump of the ticks shows as a gap in the trace."""
-        if not self._thread.is_alive():
-            raise ValueError("the recorder is closed")
+    def _begin(self, tick: int) -> bool:
+        """Start a block at `tick`; False if none is free and the row is dropped.
+
+        A jump of the ticks shows as such in the trace.
+        """
+        self._require_open()
         if self._count:
             self._hand_over()
-            self._check_writer()
-            self._block = self._free.get()
-            self._values = self._block.values
+            self._block = self._spare
+            self._count = 0
+            self._check_pump()
         self._first = tick
-        self._count = 0
+        if self.dropping and not self._change_block(wait=self._lossless):
+            self._spare.drop(tick)
+            self._tell(
+                "gap",
+                f"rows of the trace are missing from tick {tick} on: its writer does not keep up; record "
+                "fewer signals or write to a faster disk",
+            )
+            return False
+        return True
+
+    def _change_block(self, *, wait: bool) -> bool:
+        block = self._pump.empty(wait=wait)
+        if block is None:
+            return False
+        block.take_over(self._spare)
+        self._block = block
+        return True
 
     def _hand_over(self) -> None:
         self._block.first = self._first
         self._block.count = self._count
-        self._ticks += self._count
-        self._full.put(self._block)
+        self._pump.put(self._block)
 
-    def _check_writer(self) -> None:
-        error = self._error
-        if isinstance(error, TraceError):
-            raise TraceError(str(error)) from error
-        if error is not None:
-            raise TraceError(f"the trace writer failed: {error!r}; this is a defect of motionlayer") from error
-
-    def _work(self) -> None:
-        """Write blocks until None comes; after a failure only give them back, so the cycle never hangs."""
-        while (block := self._full.get()) is not None:
-            if self._error is None:
-                self._guarded(self._write, block)
-            block.clear()
-            self._free.put(block)
-        if self._error is None:
-            self._guarded(self._finish)
-        if self._writer is not None:
-            self._writer.abandon()
-
-    def _guarded(self, action: Callable[..., None], *arguments: _Block) -> None:
+    def _check_pump(self) -> None:
         try:
-            action(*arguments)
-        except BaseException as error:  # noqa: BLE001 - it is raised in the cycle thread
-            self._error = error
+            self._pump.check()
+        except TraceError as error:
+            if self._lossless:
+                raise
+            self._tell("end", f"the run goes on, its trace has ended: {error}")
 
-    def _write(self, block: _Block) -> None:
-        signals = len(self._index)
-        rows = block.values[: block.count]
-        if self._hash is not None:
-            self._hash.numbers(rows[:, signals:])
-            for event in block.events:
-                self._hash.event(event)
-        if self._writer is not None:
-            for plan in block.plans:
-                self._writer.plan(plan)
-            for event in block.events:
-                self._writer.event(event)
-            self._writer.rows(block.first, rows[:, :signals])
+    def _tell(self, what: str, text: str) -> None:
+        if not self._told[what]:
+            self._told[what] = True
+            self._warn(text)
 
-    def _finish(self) -> None:
-        digest = self._hash.hexdigest(self._ticks) if self._hash is not None else ""
-        if self._writer is not None:
-            self._writer.close(self._ticks, digest)
-        self._digest = digest
+    def _require_open(self) -> None:
+        if not self._pump.running:
+            raise ValueError("the recorder is closed")
 
 
 def _check(table: Floats, signals: Sequence[Signal], *, hashing: bool, block_ticks: int | None) -> None:
@@ -265,6 +286,8 @@ def _writer(signals: Sequence[Signal], header: dict[str, Any], path: Path | None
     return TraceWriter(path, {**header, "signals": described})
 
 
-def _fitting(width: int) -> int:
+def _fitting(width: int, base_cycle_ns: int, *, lossless: bool) -> int:
+    """Return how many ticks of so many values make a block."""
     least, most = BLOCK_TICKS
-    return max(least, min(most, BLOCK_BYTES // (8 * max(width, 1))))
+    ticks = max(least, min(most, BLOCK_BYTES // (8 * max(width, 1))))
+    return ticks if lossless else max(1, min(ticks, LOSSY_BLOCK_NS // base_cycle_ns))

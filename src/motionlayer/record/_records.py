@@ -1,23 +1,29 @@
-"""`Signal` and `Plan`, and how plans and events become bytes and come back."""
+"""`Signal`, `Plan`, `Gap` and `End`, and how they, events and inputs become bytes and come back."""
 
 import json
 import math
 import struct
 from dataclasses import dataclass
-from typing import Final, Literal, get_args
+from typing import Final, Literal, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
-from motionlayer.event import Event, Kind, Level
+from motionlayer.event import Event, Input, Kind, Level
 
 Floats = NDArray[np.float64]
-PlanKind = Literal["position", "velocity", "stop", "set"]
+PlanKind = Literal["position", "velocity", "stop", "set", "passing", "shift"]
 
 PLAN_KINDS: Final[tuple[PlanKind, ...]] = get_args(PlanKind)
 PIECE_FIELDS: Final = 5
 PLAN: Final = struct.Struct("<qq6dBHI")
 """tick, command; offset, target and the four limits; kind; lengths of name and pieces."""
+
+INPUT: Final = struct.Struct("<qI")
+"""tick; length of the name of the channel, which follows; the rest is the payload."""
+
+GAP: Final = struct.Struct("<qQQ")
+"""first tick, ticks, records."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,9 +54,14 @@ class Signal:
 class Plan:
     """A profile that a coordinate took over; equal to another if all its bits are.
 
-    It holds from `tick` on with `offset` seconds passed, and is first sampled at `tick + 1`::
+    It holds from `tick` on with `offset` seconds passed, and is first sampled at `tick + 1`. A plan with a negative
+    offset begins inside the cycle, that much after `tick`, where the plan before it ends; its limits are in force from
+    `tick + 1` on. A `passing` plan reaches its target with the velocity of its last piece, and another one follows
+    there::
 
         t = (n - tick) * dt + offset         p = p_k + v_k s + a_k s²/2 + j_k s³/6,   s = t - t_k
+
+    A `shift` plan shows a coordinate that was redefined in motion, at its own tick alone.
 
     Attributes:
         axis: name of the coordinate.
@@ -58,7 +69,7 @@ class Plan:
         offset: s.
         command: number of the command it serves, 0 without.
         kind: what it aims at.
-        target: position for `position` and `set`, velocity for `velocity`, nan for `stop`.
+        target: position for `position`, `set`, `shift` and `passing`, velocity for `velocity`, nan for `stop`.
         velocity: limit it was planned under, u/s.
         acceleration: limit while the speed grows, u/s².
         deceleration: limit while the speed falls, u/s².
@@ -97,6 +108,36 @@ class Plan:
 
     def __hash__(self) -> int:
         return hash((self.axis, self.tick, self.command))
+
+
+class Gap(NamedTuple):
+    """What a recorder that must not wait has lost.
+
+    Attributes:
+        first: tick of the first missing row; without missing rows, of the first row after the missing records.
+        ticks: number of missing rows.
+        records: number of plans, events and inputs that are missing as well; those of a gap are kept, as long
+            as there is room.
+    """
+
+    first: int
+    ticks: int
+    records: int
+
+
+class End(NamedTuple):
+    """How a run ended.
+
+    Attributes:
+        tick: number of ticks that were finished.
+        cause: in words.
+        inside: it ended inside of the tick that came next: what that had already done is recorded, but it is no
+            whole tick.
+    """
+
+    tick: int
+    cause: str
+    inside: bool = False
 
 
 def encode_plan(plan: Plan) -> bytes:
@@ -167,3 +208,36 @@ def decode_event(payload: memoryview) -> Event:
     """
     tick, level, kind, source, code, command, device, subdevice, text = json.loads(bytes(payload))
     return Event(tick, Level(level), Kind(kind), source, text, code, command, device, subdevice)
+
+
+def encode_input(what: Input) -> bytes:
+    """Return the payload of an INPT chunk."""
+    channel = what.channel.encode()
+    return INPUT.pack(what.tick, len(channel)) + channel + what.payload
+
+
+def decode_input(payload: memoryview) -> Input:
+    """Return the input of an INPT chunk.
+
+    Raises:
+        ValueError, struct.error: the payload is none.
+    """
+    tick, length = INPUT.unpack_from(payload)
+    start = INPUT.size + length
+    if start > len(payload):
+        raise ValueError(f"the name of the channel has {length} bytes; {len(payload) - INPUT.size} are left")
+    return Input(tick, bytes(payload[INPUT.size : start]).decode(), bytes(payload[start:]))
+
+
+def encode_gap(gap: Gap) -> bytes:
+    """Return the payload of a GAP chunk."""
+    return GAP.pack(*gap)
+
+
+def decode_gap(payload: memoryview) -> Gap:
+    """Return the gap of a GAP chunk.
+
+    Raises:
+        struct.error: the payload is none.
+    """
+    return Gap(*GAP.unpack(payload))

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from motionlayer.record._encode import quantise
 from motionlayer.record._errors import TraceError
 from motionlayer.record._reader import Content, read
-from motionlayer.record._rows import quantise
 from motionlayer.record._writer import TraceWriter
 
 if TYPE_CHECKING:
-    from motionlayer.event import Event
-    from motionlayer.record._records import Plan, Signal
+    from motionlayer.event import Event, Input
+    from motionlayer.record._records import End, Gap, Plan, Signal
 
 Floats = NDArray[np.float64]
 
@@ -37,7 +37,11 @@ class Trace(Mapping[str, Floats]):
         signals: names, units, resolutions.
         plans: profiles that were taken over, in order.
         events: in order. Plans and events of a trace that is not complete may be younger than its last row.
-        hash: of the run, hexadecimal; "" if not taken, if the trace is not complete or values were replaced.
+        inputs: what came from outside, in order; no part of the hash.
+        gaps: what a recorder in real time has lost because its writer did not keep up, in order.
+        hash: of the run, hexadecimal; "" if not taken, if the trace is not complete or has gaps, or if values
+            were replaced.
+        end: how the run ended; None if the trace is not complete, or nobody told its recorder.
         complete: whether the writer came to its end and nothing is damaged; else this is what stands before.
         damage: where and how the file is damaged, and how much of it was read; "" if it is not. A trace that
             is neither damaged nor complete broke off, because its writer was killed or could not write. It is
@@ -54,7 +58,10 @@ class Trace(Mapping[str, Floats]):
         self.signals: tuple[Signal, ...] = content.signals
         self.plans: tuple[Plan, ...] = tuple(content.plans)
         self.events: tuple[Event, ...] = tuple(content.events)
+        self.inputs: tuple[Input, ...] = tuple(content.inputs)
+        self.gaps: tuple[Gap, ...] = tuple(content.gaps)
         self.hash: str = content.hash
+        self.end: End | None = content.end
         self.complete: bool = content.complete
         self.damage: str = content.damage
         self.base_cycle: float = self.header["base_cycle_ns"] / 1e9
@@ -116,7 +123,8 @@ class Trace(Mapping[str, Floats]):
         return (
             isinstance(other, Trace)
             and (self.header, self.plans, self.events) == (other.header, other.plans, other.events)
-            and (self.hash, self.complete) == (other.hash, other.complete)
+            and (self.inputs, self.gaps) == (other.inputs, other.gaps)
+            and (self.hash, self.end, self.complete) == (other.hash, other.end, other.complete)
             and self.ticks.tobytes() == other.ticks.tobytes()
             and all(self[name].tobytes() == other[name].tobytes() for name in self)
         )
@@ -124,8 +132,41 @@ class Trace(Mapping[str, Floats]):
     def __repr__(self) -> str:
         size = f"{len(self)} signals x {len(self.ticks)} ticks of {self.base_cycle:g} s"
         state = "" if self.complete else ", damaged" if self.damage else ", incomplete"
-        extras = f"{len(self.plans)} plans, {len(self.events)} events"
-        return f"<Trace {self._name or 'in memory'}: {size}, {extras}{state}>"
+        gaps = f", {len(self.gaps)} gaps" if self.gaps else ""
+        extras = f"{len(self.plans)} plans, {len(self.events)} events, {len(self.inputs)} inputs"
+        return f"<Trace {self._name or 'in memory'}: {size}, {extras}{gaps}{state}>"
+
+    @property
+    def jumps(self) -> NDArray[np.intp]:
+        """Rows after which ticks are missing, ascending."""
+        return np.flatnonzero(np.diff(self.ticks) != 1)
+
+    def stretches(self) -> tuple["Trace", ...]:
+        """Return the parts without missing ticks, in order; each has all plans, events and inputs, and no hash."""
+        edges = [0, *(self.jumps + 1).tolist(), len(self.ticks)]
+        return tuple(self._stretch(slice(start, end)) for start, end in pairwise(edges)) if len(edges) > 2 else (self,)
+
+    def tail(self, ticks: int) -> "Trace":
+        """Return the end of the trace: the blocks that begin within its last `ticks`, the last one at least.
+
+        It has all plans, events and inputs, and no hash.
+        """
+        begin = max((block.first for block in self._blocks), default=0)
+        within = [block.first for block in self._blocks if block.first > self.ticks[-1] - ticks]
+        return self._stretch(slice(int(np.searchsorted(self.ticks, min([begin, *within]))), None))
+
+    def _stretch(self, rows: slice) -> "Trace":
+        other = object.__new__(Trace)
+        ticks = self.ticks[rows]
+        other.__dict__.update(
+            self.__dict__,
+            ticks=ticks,
+            time=self.time[rows],
+            hash="",
+            _blocks=[block for block in self._blocks if ticks[0] <= block.first <= ticks[-1]],
+            _arrays={name: array[rows] for name, array in self._arrays.items()},
+        )
+        return other
 
     def replace(self, arrays: Mapping[str, ArrayLike]) -> "Trace":
         """Return a trace with other values for some signals, and without a hash.
@@ -154,18 +195,21 @@ class Trace(Mapping[str, Floats]):
         """
         writer = TraceWriter(Path(path), self.header)
         try:
-            for plan in self.plans:
-                writer.plan(plan)
-            for event in self.events:
-                writer.event(event)
-            for start, end in _runs(self.ticks):
+            writer.records(self.gaps, self.inputs, self.plans, self.events)
+            for start, end in self._spans():
                 columns = [self[name][start:end] for name in self]
                 block = np.array(columns).reshape(len(self), end - start).T
                 writer.rows(int(self.ticks[start]), block)
             if self.complete:
-                writer.close(len(self.ticks), self.hash)
+                writer.close(len(self.ticks), self.hash, self.end)
         finally:
             writer.abandon()
+
+    def _spans(self) -> Iterator[tuple[int, int]]:
+        """Yield spans of rows with consecutive ticks, at most `SAVE_TICKS` long."""
+        for begin, end in pairwise([0, *(self.jumps + 1).tolist(), len(self.ticks)]):
+            for start in range(begin, end, SAVE_TICKS):
+                yield start, min(start + SAVE_TICKS, end)
 
 
 def _unknown(name: str, known: list[str]) -> str:
@@ -180,12 +224,3 @@ def _unknown(name: str, known: list[str]) -> str:
 def _sealed(array: NDArray[Any]) -> NDArray[Any]:
     array.flags.writeable = False
     return array
-
-
-def _runs(ticks: NDArray[np.int64]) -> Iterator[tuple[int, int]]:
-    """Yield spans of rows with consecutive ticks, at most `SAVE_TICKS` long."""
-    gaps = np.flatnonzero(np.diff(ticks) != 1) + 1
-    edges = [0, *gaps.tolist(), len(ticks)]
-    for begin, end in pairwise(edges):
-        for start in range(begin, end, SAVE_TICKS):
-            yield start, min(start + SAVE_TICKS, end)

@@ -1,6 +1,7 @@
 """`TraceWriter`: the one encoder, into a file or into memory."""
 
 import json
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -8,11 +9,12 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from motionlayer.event import Event
+from motionlayer.event import Event, Input
 from motionlayer.record import _container as container
+from motionlayer.record._encode import RowEncoder
 from motionlayer.record._errors import TraceError
-from motionlayer.record._records import Plan, encode_event, encode_plan
-from motionlayer.record._rows import encode_rows
+from motionlayer.record._output import open_alone
+from motionlayer.record._records import End, Gap, Plan, encode_event, encode_gap, encode_input, encode_plan
 
 
 class TraceWriter:
@@ -24,13 +26,15 @@ class TraceWriter:
             set here.
 
     Raises:
-        TraceError: the file cannot be written, here and in every method.
+        TraceError: the file cannot be written, here and in every method; here also if another run writes it.
         KeyError: the header lacks one of its fields.
         ValueError: two signals have the same name.
     """
 
     def __init__(self, target: Path | None, header: dict[str, Any]) -> None:
         self.chunks: list[bytes] = []
+        self.changes: Mapping[str, Any] = {}
+        """What is to be changed in the header at the end."""
         self._target = target
         self._file: BinaryIO | None = None
         signals = header["signals"]
@@ -38,11 +42,11 @@ class TraceWriter:
         if len(set(names)) < len(names):
             twice = sorted({name for name in names if names.count(name) > 1})
             raise ValueError(f"signals recorded twice: {', '.join(twice)}")
-        self._resolution = np.array([signal["resolution"] for signal in signals], dtype=np.float64)
+        self._encoder = RowEncoder(np.array([signal["resolution"] for signal in signals], dtype=np.float64))
         head = container.pack_head({**header, "format": container.FORMAT, "base_cycle_ns": header["base_cycle_ns"]})
         if target is not None:
             try:
-                self._file = target.open("wb")
+                self._file = open_alone(target)
             except OSError as error:
                 raise self._failure(error) from error
         try:
@@ -55,7 +59,8 @@ class TraceWriter:
     def rows(self, first_tick: int, block: NDArray[np.float64]) -> None:
         """Write rows of consecutive ticks, shape (ticks, signals), and flush."""
         if len(block):
-            self._write(container.pack_chunk(container.ROWS, encode_rows(first_tick, block, self._resolution)))
+            size, parts = self._encoder.encode(first_tick, np.ascontiguousarray(block))
+            self._write(*container.pack_parts(container.ROWS, size, parts))
         self._flush()
 
     def plan(self, plan: Plan) -> None:
@@ -66,9 +71,38 @@ class TraceWriter:
         """Write an event."""
         self._write(container.pack_chunk(container.EVENT, encode_event(event)))
 
-    def close(self, ticks: int, digest: str) -> None:
+    def input(self, what: Input) -> None:
+        """Write something that came from outside."""
+        self._write(container.pack_chunk(container.INPUT, encode_input(what)))
+
+    def gap(self, gap: Gap) -> None:
+        """Write what is missing from here on."""
+        self._write(container.pack_chunk(container.GAP, encode_gap(gap)))
+
+    def records(
+        self, gaps: Iterable[Gap], inputs: Iterable[Input], plans: Iterable[Plan], events: Iterable[Event]
+    ) -> None:
+        """Write what stands in front of rows, causes before effects."""
+        for gap in gaps:
+            self.gap(gap)
+        for what in inputs:
+            self.input(what)
+        for plan in plans:
+            self.plan(plan)
+        for event in events:
+            self.event(event)
+
+    def go_back(self, chunks: Sequence[bytes], changes: Mapping[str, Any]) -> None:
+        """Let the trace in memory consist of these chunks, which it once did, with other values in its header."""
+        self.chunks[:] = chunks
+        self.changes = changes
+
+    def close(self, ticks: int, digest: str, end: End | None = None) -> None:
         """Write the tail, which says that the trace is whole, and close the file."""
-        tail = json.dumps({"ticks": ticks, "hash": digest}).encode()
+        tail = json.dumps({"ticks": ticks, "hash": digest, "end": end}).encode()
+        if self.changes:
+            header, _ = container.unpack_head(memoryview(self.chunks[0]), "the recording")
+            self.chunks[0] = container.pack_head({**header, **self.changes})
         try:
             self._write(container.pack_chunk(container.TAIL, tail))
             self._flush()
@@ -82,12 +116,12 @@ class TraceWriter:
             with suppress(OSError):  # what is lost here has been reported by the write that failed
                 file.close()
 
-    def _write(self, data: bytes) -> None:
+    def _write(self, *parts: bytes | memoryview) -> None:
         if self._target is None:
-            self.chunks.append(data)
+            self.chunks.append(b"".join(parts))
         elif self._file is not None:
             try:
-                self._file.write(data)
+                self._file.writelines(parts)
             except OSError as error:
                 raise self._failure(error) from error
 

@@ -1,12 +1,72 @@
 """The runtime: cycle, programs and their waits, clock and watchdog. It knows levels 0 and 1 only.
 
-A `Cycle` runs a list of stages in the order of the steps of a tick; what they do is the business of whoever hands
-them over. Programs are coroutines that run in their own step, in the run's own time.
+A `Run` calls a list of stages in the order of the steps of a tick; what they do is the business of whoever hands
+them over. Programs are coroutines, or functions that tasks call; they run in their own step, in the run's own time.
+What comes from other threads is posted to the mailbox; what they may see lies in areas. A `Pace` holds back each tick
+in real time, and a `Meter` measures it; what they find reaches a run as a recorded input or not at all. A `SteppedRun`
+can be held up, stopped at events, copied and taken back.
 """
 
-from motionlayer.runtime._clock import PATIENCE, ProgramStuck
+from motionlayer.runtime._breakpoints import Breakpoint
+from motionlayer.runtime._clock import SYSTEM, Clock, SystemClock
+from motionlayer.runtime._conditions import Conditions, collect_young
 from motionlayer.runtime._cycle import Stage, Step
+from motionlayer.runtime._cyclic import CyclicProgram, takes_memory
+from motionlayer.runtime._image import Area, Areas
+from motionlayer.runtime._lateness import LATE, Lateness, late_input
+from motionlayer.runtime._mailbox import Mailbox, MailboxFull, Receipt
+from motionlayer.runtime._meter import Meter
+from motionlayer.runtime._pace import BRAKE, CATCH_UP, FASTEST, SLOWEST, Pace
 from motionlayer.runtime._program import Cancelled, Program
 from motionlayer.runtime._run import CycleFault, Run
+from motionlayer.runtime._snapshot import Snapshot
+from motionlayer.runtime._statistics import Histogram, Spread, Statistics
+from motionlayer.runtime._stepping import SteppedRun
+from motionlayer.runtime._tasks import BUDGET, MAIN, Task, TaskConfig, Tasks, heaviest
+from motionlayer.runtime._watchdog import PATIENCE, ProgramStuck
+from motionlayer.runtime.copying import NotCopyable
 
-__all__ = ["PATIENCE", "Cancelled", "CycleFault", "Program", "ProgramStuck", "Run", "Stage", "Step"]
+__all__ = [
+    "BRAKE",
+    "BUDGET",
+    "CATCH_UP",
+    "FASTEST",
+    "LATE",
+    "MAIN",
+    "PATIENCE",
+    "SLOWEST",
+    "SYSTEM",
+    "Area",
+    "Areas",
+    "Breakpoint",
+    "Cancelled",
+    "Clock",
+    "Conditions",
+    "CycleFault",
+    "CyclicProgram",
+    "Histogram",
+    "Lateness",
+    "Mailbox",
+    "MailboxFull",
+    "Meter",
+    "NotCopyable",
+    "Pace",
+    "Program",
+    "ProgramStuck",
+    "Receipt",
+    "Run",
+    "Snapshot",
+    "Spread",
+    "Stage",
+    "Statistics",
+    "Step",
+    "SteppedRun",
+    "SystemClock",
+    "Task",
+    "TaskConfig",
+    "Tasks",
+    "collect_young",
+    "heaviest",
+    "late_input",
+    "takes_memory",
+]

@@ -44,6 +44,6 @@ class Stage(NamedTuple):
     run: Callable[[int], None]
 
 
-def in_order(stages: list[Stage]) -> tuple[Callable[[int], None], ...]:
-    """Return what one tick calls, in order."""
-    return tuple(stage.run for stage in sorted(stages, key=lambda stage: stage.step))
+def in_order(stages: list[Stage]) -> tuple[Stage, ...]:
+    """Return the stages of one tick in the order in which they run."""
+    return tuple(sorted(stages, key=lambda stage: stage.step))

@@ -1,7 +1,7 @@
 """Programs and what they wait for.
 
-A program is a coroutine. It may await commands, `run.sleep` and `run.until` among them; each suspends it until a later
-tick.
+A program is a coroutine, or a function that a task calls (`_cyclic`). A coroutine may await commands, `run.sleep` and
+`run.until` among them; each suspends it until a later tick.
 Who is due is decided before any program of a tick runs; each runs at most once per tick, in order of start.
 """
 
@@ -27,31 +27,58 @@ class Deadline:
 
 
 class Program(Command[Any]):
-    """A running coroutine; a command too, so that it can be awaited.
+    """Something of the user's that runs in the programs step; a command too, so that it can be awaited.
 
     Attributes:
         failure: the exception that left it, if any.
     """
 
-    def __init__(self, coroutine: Coroutine[Any, Any, Any], name: str, *, number: int, owner: "Program | None") -> None:
+    def __init__(self, name: str, *, number: int, owner: Command[Any] | None) -> None:
         super().__init__(name, number=number, owner=owner)
         self.failure: BaseException | None = None
         self.deadlines: list[Deadline] = []
         self.waits_for: Command[Any] | None = None
         self.cancelling = False
-        self._coroutine = coroutine
+        self._value: Any = None
 
     def cancel(self) -> None:
-        """Throw `Cancelled` into the program in the next tick, where it waits; what it commanded goes on."""
+        """End the program at its next turn; what it commanded goes on."""
         self.cancelling = True
 
     def resume(self, throw: BaseException | None = None) -> bool:
-        """Run to the next wait; return False when the coroutine has returned.
+        """Give the program its turn; return False when it has come to its end.
+
+        Args:
+            throw: raised in the program at the place where it stands.
 
         Raises:
-            BaseException: whatever leaves the coroutine.
+            BaseException: whatever leaves the program.
         """
         self.waits_for = None
+        return self._go_on(throw)
+
+    def _go_on(self, throw: BaseException | None) -> bool:
+        raise NotImplementedError
+
+    @property
+    def value(self) -> Any:  # noqa: ANN401 - whatever the program returns
+        """What the program returned in the end."""
+        return self._value
+
+    def close(self) -> None:
+        """Let go of the program; it gets no turn any more."""
+
+
+class CoroutineProgram(Program):
+    """A running coroutine; its turn goes to the next wait. Cancelled, it is thrown `Cancelled` in the next tick."""
+
+    def __init__(
+        self, coroutine: Coroutine[Any, Any, Any], name: str, *, number: int, owner: Command[Any] | None
+    ) -> None:
+        super().__init__(name, number=number, owner=owner)
+        self._coroutine = coroutine
+
+    def _go_on(self, throw: BaseException | None) -> bool:
         try:
             with _NoLoop():
                 asked = self._coroutine.throw(throw) if throw is not None else self._coroutine.send(None)
@@ -62,11 +89,6 @@ class Program(Command[Any]):
             return False
         self.waits_for = asked
         return True
-
-    @property
-    def value(self) -> Any:  # noqa: ANN401 - whatever the coroutine returns
-        """What the coroutine returned."""
-        return self._value
 
     def close(self) -> None:
         """Let the coroutine run its `finally` blocks; it cannot wait any more."""

@@ -1,13 +1,15 @@
 """The scheduler: which programs are due, and what becomes of those that fail."""
 
 import traceback
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Sequence
 from pathlib import Path
 from typing import Any, Final
 
-from motionlayer.command import CommandAborted, CommandError, ErrorId, Ledger, MotionError
-from motionlayer.event import Event, EventLog, Kind, Level
-from motionlayer.runtime._program import Cancelled, Program
+from motionlayer.command import Command, CommandAborted, CommandError, ErrorId, Ledger, MotionError
+from motionlayer.event import Device, Event, EventLog, Kind, Level, Subdevice
+from motionlayer.runtime._cyclic import CyclicProgram, takes_memory
+from motionlayer.runtime._program import Cancelled, CoroutineProgram, Program
+from motionlayer.runtime._tasks import Tasks
 from motionlayer.runtime._waits import Waits
 
 
@@ -17,10 +19,11 @@ class Scheduler:
     Args:
         ledger: its tick and issuer are kept here.
         events: where the end of programs is told.
+        tasks: what calls the cyclic ones.
         on_failure: called with a program that failed and that nobody awaits.
     """
 
-    def __init__(self, ledger: Ledger, events: EventLog, on_failure: Callable[[Program], None]) -> None:
+    def __init__(self, ledger: Ledger, events: EventLog, tasks: Tasks, on_failure: Callable[[Program], None]) -> None:
         self.programs: list[Program] = []
         """Programs that have not ended, in order of start."""
         self.failures: list[Program] = []
@@ -29,32 +32,56 @@ class Scheduler:
         """Sleeps and predicates that somebody waits for."""
         self._ledger = ledger
         self._events = events
+        self._tasks = tasks
+        self._coroutines: list[CoroutineProgram] = []
         self._on_failure = on_failure
         self._ended_waits: dict[int, int] = {}
 
-    def start(self, coroutine: Coroutine[Any, Any, Any], name: str) -> Program:
-        """Add a program; it first runs in the next programs step that begins.
+    def start(self, coroutine: Coroutine[Any, Any, Any], name: str) -> CoroutineProgram:
+        """Add a coroutine; it first runs in the next programs step that begins.
 
         Raises:
             TypeError: it is not a coroutine.
         """
         if not isinstance(coroutine, Coroutine):
             raise TypeError(f"{name}: {coroutine!r} is not a coroutine; call the async function: start(program())")
-        issuer = self._ledger.issuer
-        owner = issuer if isinstance(issuer, Program) else None
-        program = Program(coroutine, name, number=self._ledger.number(), owner=owner)
-        program.activate()
-        self.programs.append(program)
-        self._tell(program, Level.INFO, Kind.ACCEPTED, "started")
+        program = CoroutineProgram(coroutine, name, number=self._ledger.number(), owner=self._ledger.issuer)
+        self._coroutines.append(program)
+        self._begin(program)
+        return program
+
+    def cyclic(self, function: Callable[..., None], run: object, name: str, task: str) -> CyclicProgram:
+        """Add a cyclic program; it is first called by its task in the next programs step that begins.
+
+        Raises:
+            KeyError: there is no such task.
+            TypeError: it is not `def function(run)` or `def function(run, memory)`.
+        """
+        calling, with_memory = self._tasks[task], takes_memory(function)
+        number, owner = self._ledger.number(), self._ledger.issuer
+        since = self._ledger.tick + (0 if owner is None else 1)
+        program = CyclicProgram(function, run, name, with_memory=with_memory, number=number, owner=owner, since=since)
+        self._tasks.add(calling, program)
+        self._begin(program)
         return program
 
     def run(self, tick: int) -> None:
-        """Resume everyone who is due in this tick."""
+        """Give everyone a turn who is due in this tick: coroutines, then the tasks."""
         self.waits.end(tick)
-        due = [(program, throw) for program in self.programs for is_due, throw in [self._due(program, tick)] if is_due]
+        coroutines = self._coroutines
+        due = [(program, throw) for program in coroutines for is_due, throw in [self._due(program, tick)] if is_due]
         for program, throw in due:
             if program.busy:
                 self._resume(program, throw)
+        self._tasks.run(tick, self._turn)
+
+    def _begin(self, program: Program) -> None:
+        program.activate()
+        self.programs.append(program)
+        self._tell(program, Level.INFO, Kind.ACCEPTED, "started")
+
+    def _turn(self, program: CyclicProgram) -> None:
+        self._resume(program, Cancelled() if program.cancelling else None)
 
     def cancel_all(self) -> None:
         """Cancel what still runs, in reverse order; a program that waits again is closed."""
@@ -63,6 +90,11 @@ class Scheduler:
                 self._resume(program, Cancelled())
         for program in self.programs.copy():  # those that wait again, and those that a failure has just started
             self._close(program)
+
+    def keep_only(self, kept: Sequence[Program]) -> None:
+        """Close all other programs, the last one first: the run goes back to a tick at which there were only these."""
+        while others := [program for program in self.programs if program not in kept]:
+            self._close(others[-1])
 
     def _close(self, program: Program) -> None:
         """Close a program that waits again although the run is over."""
@@ -93,7 +125,8 @@ class Scheduler:
         self._ended_waits.pop(program.number, None)
         try:
             if program.resume(throw):
-                self._watch(program)
+                if program.waits_for is not None:
+                    self._watch(program, program.waits_for)
                 return
             failure: BaseException | None = None
         except Cancelled as cancelled:
@@ -107,10 +140,9 @@ class Scheduler:
             self._ledger.issuer = None
         self._finish(program, failure)
 
-    def _watch(self, program: Program) -> None:
+    def _watch(self, program: Program, wait: Command[Any]) -> None:
         """Note when the command that a program waits for ends: it is due from the tick after."""
-        wait, number = program.waits_for, program.number
-        assert wait is not None
+        number = program.number
         self._ended_waits[number] = _NEVER
 
         def ended() -> None:
@@ -121,6 +153,10 @@ class Scheduler:
 
     def _finish(self, program: Program, failure: BaseException | None) -> None:
         self.programs.remove(program)
+        if isinstance(program, CyclicProgram):
+            self._tasks.remove(program)
+        elif isinstance(program, CoroutineProgram):
+            self._coroutines.remove(program)
         if failure is None:
             self._tell(program, Level.INFO, Kind.DONE, "ended")
             program.finish(program.value)
@@ -143,7 +179,8 @@ class Scheduler:
 
     def _tell(self, program: Program, level: Level, kind: Kind, text: str, code: int = 0) -> None:
         source = f"program {program.name}"
-        self._events.add(Event(self._ledger.tick, level, kind, source, text, code, program.number))
+        main, part = Device.Device_Main, Subdevice.General
+        self._events.add(Event(self._ledger.tick, level, kind, source, text, code, program.number, main, part))
 
 
 _NEVER: Final = 2**62

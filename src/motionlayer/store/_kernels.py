@@ -25,6 +25,12 @@ PIECE_J: Final = Q.PIECE_J
 TICK: Final = Q.TICK
 OFFSET: Final = Q.OFFSET
 
+ENDED: Final = 0
+"""A profile came to its last piece."""
+
+WENT_ON: Final = 1
+"""A profile ended, and the one appended to it has begun."""
+
 
 @kernel
 def take_over(
@@ -32,6 +38,7 @@ def take_over(
     pieces: Floats,
     counts: Integers,
     current: Integers,
+    appended: Integers,
     column: int,
     profile: Floats,
     count: int,
@@ -43,6 +50,7 @@ def take_over(
         for field in range(PIECE_FIELDS):
             pieces[column, k, field] = profile[k, field]
     counts[column] = count
+    appended[column] = 0
     current[column] = 0
     table[TICK, column] = tick
     table[OFFSET, column] = offset
@@ -76,17 +84,40 @@ def go_on(table: Floats, pieces: Floats, counts: Integers, current: Integers, co
 
 
 @kernel
+def begin_appended(
+    table: Floats,
+    pieces: Floats,
+    counts: Integers,
+    current: Integers,
+    appended: Integers,
+    column: int,
+    tick: float,
+    dt: float,
+) -> None:
+    """Let a column that came to its last piece before `tick` follow the appended profile from that instant on.
+
+    The profile keeps a clock of its own: its offset at the tick before is how long it still had to wait, negated.
+    """
+    ended = table[PIECE_TIME, column]
+    offset = (tick - 1.0 - table[TICK, column]) * dt + table[OFFSET, column] - ended
+    first, count = counts[column], appended[column]
+    waiting = pieces[column, first : first + count]  # lies behind where it goes: copying forwards is safe
+    take_over(table, pieces, counts, current, appended, column, waiting, count, tick - 1.0, max(offset, -dt))
+
+
+@kernel
 def sample(
     table: Floats,
     pieces: Floats,
     counts: Integers,
     current: Integers,
+    appended: Integers,
     generators: int,
     tick: float,
     dt: float,
-    ended: Integers,
+    passed: Integers,
 ) -> int:
-    """Evaluate all generators at `tick`; write the columns that came to their last piece into `ended`.
+    """Evaluate all generators at `tick`; write into `passed` which columns ENDED or WENT_ON; return how many entries.
 
     Two passes: a test that is almost never true, and straight arithmetic that compiles to vector code.
     """
@@ -95,7 +126,16 @@ def sample(
     for i in range(generators):
         time = (tick - start[i]) * dt + offset[i]
         if time >= end[i] and go_on(table, pieces, counts, current, i, time):
-            ended[count] = i
+            passed[count, 0] = i
+            passed[count, 1] = ENDED
+            if appended[i] > 0:
+                passed[count, 1] = WENT_ON
+                begin_appended(table, pieces, counts, current, appended, i, tick, dt)
+                time = dt + offset[i]
+                if time >= end[i] and go_on(table, pieces, counts, current, i, time):
+                    count += 1
+                    passed[count, 0] = i
+                    passed[count, 1] = ENDED
             count += 1
     since, p, v = table[PIECE_TIME], table[PIECE_P], table[PIECE_V]
     a, j = table[PIECE_A], table[PIECE_J]
@@ -112,24 +152,24 @@ def sample(
 
 
 @kernel
-def position_at(pieces: Floats, counts: Integers, column: int, time: float) -> float:
-    """Evaluate the profile of a column at `time` seconds since it began."""
-    k = counts[column] - 1
-    while k > 0 and time < pieces[column, k, 0]:
+def position_at(pieces: Floats, time: float) -> float:
+    """Evaluate a profile at `time` seconds since it began."""
+    k = pieces.shape[0] - 1
+    while k > 0 and time < pieces[k, 0]:
         k -= 1
-    s = time - pieces[column, k, 0]
-    p, v, a, j = pieces[column, k, 1], pieces[column, k, 2], pieces[column, k, 3], pieces[column, k, 4]
+    s = time - pieces[k, 0]
+    p, v, a, j = pieces[k, 1], pieces[k, 2], pieces[k, 3], pieces[k, 4]
     return float(p + s * (v + s * (0.5 * a + s * (j / 6.0))))
 
 
 @kernel
-def passing_time(pieces: Floats, counts: Integers, column: int, first: float, last: float, position: float) -> float:
+def passing_time(pieces: Floats, first: float, last: float, position: float) -> float:
     """Return when, between two times of the profile, it passes `position`, by bisection to the last bit."""
-    rising = position_at(pieces, counts, column, last) > position_at(pieces, counts, column, first)
+    rising = position_at(pieces, last) > position_at(pieces, first)
     way = 1.0 if rising else -1.0  # reached counts as passed in both directions
     for _ in range(64):
         middle = 0.5 * (first + last)
-        if way * (position_at(pieces, counts, column, middle) - position) >= 0.0:
+        if way * (position_at(pieces, middle) - position) >= 0.0:
             last = middle
         else:
             first = middle

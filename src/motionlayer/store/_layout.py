@@ -57,8 +57,11 @@ class Q:
     ERROR: Final = 36
     HOMING: Final = 37
     WINDOWS: Final = 38
+    # zero pulse of the encoder: 1 asks the drive to latch the next one, which sets it to 0; its drive position
+    INDEX_ARMED: Final = 39
+    INDEX_LATCH: Final = 40
 
-    COUNT: Final = 39
+    COUNT: Final = 41
 
 
 class Status:
@@ -80,6 +83,12 @@ JOB_POSITION: Final = 1
 
 JOB_VELOCITY: Final = 2
 """Towards the signed velocity `JOB_TARGET`."""
+
+JOB_COMPOUND: Final = 3
+"""A motion of several parts, which only its axis can plan anew."""
+
+JOB_BRAKE: Final = 4
+"""A brake, which the override leaves alone, and a motion after it, which only its axis can plan anew."""
 
 PIECE_FIELDS: Final = 5
 """A piece is (time since the profile began, p, v, a at its start, jerk)."""

@@ -15,8 +15,9 @@ The argument goes
 3. *Samples alone* are plausible too: over each cycle p, v and a fit one another within the jerk limit. The
    jerk is the difference of the accelerations; position differences would drown it (an error e in p is 8 e
    / dt³ in it).
-4. *States* follow the diagram, and nothing moves in a state of rest; *commands* live once and end at their
-   targets.
+4. *States* follow the diagram, nothing moves in a state of rest, and each change has its cause in the events:
+   a command, its end, an error. *Commands* live once and end at their targets; what moves the axis serves a
+   command that is under way. *Power* comes where it was asked for, and the axis then stands at its set position.
 
 `TOLERANCES` is published. Tolerances scale with the numbers they apply to, so that the same trace is judged
 the same in µm and in m: `tolerance` gives them sample by sample. A resolution other than lossless widens

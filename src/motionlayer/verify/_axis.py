@@ -20,14 +20,20 @@ LIMITS: Final = ("max_velocity", "max_acceleration", "max_deceleration", "max_je
 OTHER_SIGNALS: Final = (
     "set_jerk",
     "actual_position",
+    "lag",
     *LIMITS,
     "software_limit_min",
     "software_limit_max",
     "state",
     "override",
+    "enable",
+    "ready",
 )
 ORDER: Final = ("", "/s", "/s²", "/s³")
 """What follows the unit of the axis in the unit of position, velocity, acceleration, jerk."""
+
+WRITTEN: Final = "write_parameter("
+"""How the message begins that an axis has taken a parameter."""
 
 MOST_FINDINGS: Final = 10
 """Findings per rule and axis; one mistake in a planner would else bury all the rest."""
@@ -45,6 +51,7 @@ class Axis:
         signals: the recorded ones, names without the axis.
         resolution: of the recorded signals, 0 = lossless.
         curves: its plans.
+        written: ticks in which a parameter of it was written.
     """
 
     name: str
@@ -54,6 +61,7 @@ class Axis:
     signals: Mapping[str, Floats]
     resolution: Mapping[str, float]
     curves: Curves
+    written: Integers
 
     @classmethod
     def of(cls, trace: "Trace", name: str) -> "Axis":
@@ -63,6 +71,7 @@ class Axis:
             raise ValueError(f"{name}: the plans are missing or malformed, see the report of verify")
         own = {s.name.rpartition(".")[2]: s for s in trace.signals if s.name.rpartition(".")[0] == name}
         dt = float(trace.base_cycle)
+        written = [event.tick for event in trace.events if event.source == name and event.text.startswith(WRITTEN)]
         return cls(
             name=name,
             machine=trace.header["machine"]["axis"][name],
@@ -71,6 +80,7 @@ class Axis:
             signals={key: trace[signal.name] for key, signal in own.items()},
             resolution={key: float(signal.resolution) for key, signal in own.items()},
             curves=Curves(plans, dt),
+            written=np.array(written, np.int64),
         )
 
     @cached_property
@@ -95,10 +105,20 @@ class Axis:
         return self.curves.at(plan, self.curves.time(plan, self.ticks - 1))
 
     @cached_property
+    def recorded(self) -> Flags:
+        """Plans that were taken over in a tick that has a row, and not before the first or after the last one."""
+        return np.asarray((self.curves.tick >= self.ticks[0]) & (self.curves.tick <= self.ticks[-1]))
+
+    @cached_property
+    def row_taken(self) -> Integers:
+        """Row in which each plan was taken over; of one that is not `recorded`, the nearest."""
+        return np.asarray(np.clip(self.curves.tick - self.ticks[0], 0, len(self.ticks) - 1), np.int64)
+
+    @cached_property
     def redefined(self) -> Flags:
         """Rows at which the coordinate was redefined: the first ones of `set` plans."""
         first = self.curves.tick[self.serving] == self.ticks
-        return np.asarray(first & (self.curves.kind[self.serving] == "set"))
+        return np.asarray(first & self.curves.redefines[self.serving])
 
     def maximum(self, of: str) -> float:
         """Return the machine's maximum of `velocity`, `acceleration`, `deceleration` or `jerk`."""
@@ -109,10 +129,18 @@ class Axis:
         of_plans: Floats = getattr(self.curves, signal.removeprefix("max_"))
         return of_plans[self.in_force]
 
-    def software_limit(self, side: str) -> float:
-        """Return the software limit `min` or `max`; infinite where there is none."""
+    def machine_limit(self, side: str) -> float:
+        """Return the software limit `min` or `max` of the machine; infinite where there is none."""
         limit = self.machine.get(f"software_limit_{side}")
         return (-math.inf if side == "min" else math.inf) if limit is None else float(limit)
+
+    def software_limit(self, side: str) -> Floats:
+        """Return the software limit `min` or `max` of each row: the machine's, or a narrower one written since."""
+        machine = np.full(len(self.ticks), self.machine_limit(side))
+        if not len(self.written) or f"software_limit_{side}" not in self.signals:
+            return machine
+        recorded = self.signals[f"software_limit_{side}"]
+        return np.asarray(np.maximum(recorded, machine) if side == "min" else np.minimum(recorded, machine))
 
     def unit(self, order: int) -> str:
         """Return the unit of the `order`-th derivative of the position."""

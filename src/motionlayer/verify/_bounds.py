@@ -8,7 +8,7 @@ A plan may start outside its limits, when they were lowered in motion. The way b
 
 - while |a| is outside, it falls with the full jerk;
 - before |v| falls, it may only do what it does while a goes to zero with the full jerk; then it falls until
-  it is inside, and stays there. A stop does the same until it is at rest.
+  it is inside, and stays there. A stop does the same until it is at rest, where the shortest one comes to rest.
 """
 
 from collections.abc import Callable
@@ -19,6 +19,7 @@ import numpy as np
 from motionlayer.verify._axis import Axis
 from motionlayer.verify._curves import Curves, Flags, Floats, Integers
 from motionlayer.verify._report import Finding
+from motionlayer.verify._stops import stops
 from motionlayer.verify._tolerance import TOLERANCES, Slack
 
 
@@ -126,3 +127,15 @@ def planned_limits(axis: Axis) -> list[Finding]:
     return found + axis.findings(
         "planned jerk", jerk > most * share, when, "above the limit", value=jerk, limit=most, order=3
     )
+
+
+def shortest_stops(axis: Axis) -> list[Finding]:
+    """A stop comes to rest where the shortest one under its limits does: it does not brake weaker than it may."""
+    curves, slack = axis.curves, Slack.of(axis.curves)
+    rest, last = stops(curves, curves.deceleration, curves.jerk).rest, curves.last_piece()
+    time = last[:, 0] - np.maximum(curves.offset, 0.0)
+    # An error of v or a at the start is carried on until the end.
+    allowed = slack.p + time * (slack.v + time * slack.a)
+    bad = (curves.kind == "stop") & ~(np.abs(last[:, 1] - rest) <= allowed)
+    text = "does not come to rest where the shortest stop does"
+    return axis.findings("planned stop", bad, curves.tick, text, value=last[:, 1], limit=rest, order=0)

@@ -1,5 +1,6 @@
 """Rules that join plans, samples and the life of commands."""
 
+import math
 from collections.abc import Mapping
 from itertools import pairwise
 
@@ -20,23 +21,25 @@ def command_rules(axis: Axis, lives: Lives) -> list[Finding]:
     return [
         *_plans_of_commands(axis, lives),
         *_replaced(axis, lives),
+        *_endless(axis, lives),
         *_done_at_target(axis, lives),
+        *_done_in_window(axis, lives),
         *_ended_in(axis, lives, State.STANDSTILL, 1),
         *_ended_in(axis, lives, State.ERRORSTOP, 0),
     ]
 
 
 def _plans_of_commands(axis: Axis, lives: Lives) -> list[Finding]:
-    """A plan serves a command that was accepted, and that has not ended; an endless motion may go on."""
+    """A plan serves a command that was accepted, and that has not ended."""
     found = []
-    for tick, number, kind in _plan_rows(axis):
+    for tick, number, _ in _plan_rows(axis):
         life = lives.get(number)
         if number == 0:
             continue
         if life is None or life.kind == Kind.REFUSED or life.accepted > tick or life.source != axis.name:
             text = f"a plan serves command {number}, which the axis has not accepted"
             found.append(axis.finding("command plan", tick, text))
-        elif life.ended < tick and kind == "position":
+        elif life.ended < tick:
             text = f"a plan serves command {number}, which ended in tick {life.ended}"
             found.append(axis.finding("command plan", tick, text))
     return found
@@ -48,12 +51,12 @@ def _plan_rows(axis: Axis) -> list[tuple[int, int, str]]:
 
 
 def _replaced(axis: Axis, lives: Lives) -> list[Finding]:
-    """A command whose plan is replaced by that of another one has ended then."""
+    """A command whose plan is replaced has ended then, whether another command did it or a brake that serves none."""
     found = []
     for (_, old, _), (tick, new, _) in pairwise(_plan_rows(axis)):
         life = lives.get(old)
-        if new not in (0, old) and life is not None and life.ended > tick:
-            text = f"command {old} is replaced by command {new} and has not ended"
+        if new != old and life is not None and life.ended > tick:
+            text = f"the plan of command {old} is replaced by one of command {new}, and it has not ended"
             found.append(axis.finding("command end", tick, text))
     return found
 
@@ -76,6 +79,8 @@ def _done_at_target(axis: Axis, lives: Lives) -> list[Finding]:
         p, v = float(axis.signals["set_position"][row]), float(axis.signals["set_velocity"][row])
         if axis.redefined[row]:  # another coordinate already: what the plan says is what the old one would show
             p = float(curves.at(np.array([plan]), curves.time(np.array([plan]), np.array([life.ended + 1]))).p[0])
+        if _handed_over(axis, plan, life):  # inside the cycle: the next plan began where this one ends
+            _, p, v, _, _ = curves.pieces[curves.first[plan + 1]].tolist()
         target = float(curves.target[plan])
         by_position, by_velocity = (p, target, wide_p[row] + slack.p[plan], 0), (v, target, wide_v[row], 1)
         cases = {"velocity": by_velocity, "stop": (v, 0.0, wide_v[row], 1)}
@@ -83,6 +88,55 @@ def _done_at_target(axis: Axis, lives: Lives) -> list[Finding]:
         if not abs(value - limit) <= allowed:
             text = f"command {life.number} is done beside its target"
             found.append(axis.finding("done", life.ended, text, value=value, limit=limit, unit=axis.unit(order)))
+    return found
+
+
+def _handed_over(axis: Axis, plan: int, life: Life) -> bool:
+    """Tell whether the plan after that of a command began inside the cycle in which the command ended."""
+    curves = axis.curves
+    return plan + 1 < len(curves) and bool(curves.inside[plan + 1]) and int(curves.tick[plan + 1]) == life.ended
+
+
+def _endless(axis: Axis, lives: Lives) -> list[Finding]:
+    """An endless motion is never done: it is replaced, or ends with an error on the software limit ahead."""
+    curves, state = axis.curves, axis.signals.get("state")
+    found = []
+    for life in lives.values():
+        plan = _plan_when_done(axis, life)
+        if plan is None:
+            continue
+        endless = curves.kind[plan] == "velocity"
+        if state is not None and axis.recorded[plan] and curves.kind[plan] == "position":
+            row = min(int(axis.row_taken[plan]) + int(curves.inside[plan]), len(state) - 1)  # its own state
+            endless = bool(state[row] == State.CONTINUOUS)
+        if endless:
+            text = f"command {life.number} is done, and moved the axis without end"
+            found.append(axis.finding("done", life.ended, text))
+    return found
+
+
+def _done_in_window(axis: Axis, lives: Lives) -> list[Finding]:
+    """A positioning that waits for a window of the actual position is done inside it, and after its time there.
+
+    Function-blocks 2.7: the target window, or without one the range window, which has no time.
+    """
+    monitor, actual = axis.machine.get("monitor", {}), axis.signals.get("actual_position")
+    window = monitor.get("target_window")
+    rows = math.ceil(monitor["target_time"] / axis.dt - 1e-6) if window is not None else 0
+    window = monitor.get("range_window") if window is None else window
+    if window is None or actual is None:
+        return []
+    found, wide = [], sample_tolerance(axis, "actual_position")
+    for life in lives.values():
+        plan = _plan_when_done(axis, life)
+        last = life.ended - int(axis.ticks[0])
+        if plan is None or axis.curves.kind[plan] != "position" or not 0 <= last < len(actual):
+            continue
+        since = max(last - rows, int(axis.curves.tick[plan] - axis.ticks[0]), 0)
+        off = np.abs(actual[since : last + 1] - axis.curves.target[plan])
+        if not (off <= window + wide[since : last + 1]).all():
+            text = f"command {life.number} is done outside the window, or too soon in it"
+            found.append(axis.finding("done", life.ended, text, value=off.max(), limit=window, unit=axis.unit(0)))
     return found
 
 

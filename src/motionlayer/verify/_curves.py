@@ -39,11 +39,15 @@ class Curves:
         plans: well-formed plans (`motionlayer.verify._wellformed.malformed` finds nothing), in order.
         dt: base cycle in s.
 
-    A plan is first sampled at the tick after its own; a `set` plan, which redefines the coordinate, at its own.
+    A plan is first sampled at the tick after its own; a `set` plan, which redefines the coordinate, at its own. A plan
+    that begins inside a cycle, where the one before it ends, has the tick before, and its limits hold from the next
+    one on; it has a negative offset, or follows a plan that took no time.
 
     Attributes:
         holds: first tick whose set values belong to each plan, shape (P,).
         tick, offset, command, kind, target: of each plan, shape (P,).
+        redefines: whether each plan only shows a coordinate that was redefined, at rest or in motion, shape (P,).
+        inside: whether each plan begins inside a cycle, where the one before it ends, shape (P,).
         velocity, acceleration, deceleration, jerk: its limits, shape (P,).
         pieces: of all plans one below the other, shape (N, 5).
         first: index of the first piece of each plan, and N at the end, shape (P + 1,).
@@ -55,8 +59,11 @@ class Curves:
         self.tick: Integers = np.array([plan.tick for plan in plans], np.int64)
         self.command: Integers = np.array([plan.command for plan in plans], np.int64)
         self.kind: NDArray[np.str_] = np.array([plan.kind for plan in plans], np.str_)
-        self.holds: Integers = self.tick + (self.kind != "set")
+        self.redefines: Flags = np.isin(self.kind, ("set", "shift"))
+        self.holds: Integers = self.tick + ~self.redefines
         self.offset: Floats = np.array([plan.offset for plan in plans], np.float64)
+        self.inside: Flags = self.offset < 0.0
+        self.inside[1:] |= (np.diff(self.tick) == 0) & ~self.redefines[1:] & ~self.redefines[:-1]
         self.target: Floats = np.array([plan.target for plan in plans], np.float64)
         self.velocity: Floats = np.array([plan.velocity for plan in plans], np.float64)
         self.acceleration: Floats = np.array([plan.acceleration for plan in plans], np.float64)
@@ -76,7 +83,7 @@ class Curves:
 
     def in_force(self, ticks: Integers) -> Integers:
         """Return the plan whose limits are in force from each tick on; -1 where there is none."""
-        return np.searchsorted(self.tick, ticks, side="right").astype(np.int64) - 1
+        return np.searchsorted(self.tick + self.inside, ticks, side="right").astype(np.int64) - 1
 
     def time(self, plan: Integers, ticks: Integers) -> Floats:
         """Return the seconds since the profile of `plan` began, at `ticks`."""

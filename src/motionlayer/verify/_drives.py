@@ -1,7 +1,8 @@
 """Rules over the actual position: that of an ideal drive, and that of a simulated servo.
 
-A servo is not simulated again. What the trace allows to judge: its lag stays within the limit of the monitor, or an
-error follows as soon as the filter time is over; and its encoder shows whole steps.
+A servo is not simulated again. What the trace allows to judge: its lag is what set and actual position make it, and
+stays within the limit of the monitor, or an error follows as soon as the filter time is over; and its encoder shows
+whole steps.
 """
 
 import math
@@ -12,7 +13,7 @@ from motionlayer.verify._axis import Axis
 from motionlayer.verify._curves import Flags
 from motionlayer.verify._report import Finding
 from motionlayer.verify._states import State
-from motionlayer.verify._tolerance import EPS, TOLERANCES, differs, quantisation, sample_tolerance
+from motionlayer.verify._tolerance import EPS, differs, quantisation, sample_tolerance
 
 
 def actual_position(axis: Axis) -> list[Finding]:
@@ -21,34 +22,71 @@ def actual_position(axis: Axis) -> list[Finding]:
     if "actual_position" not in axis.signals:
         return []
     if kind == "servo":
-        return [*_lag(axis), *_steps(axis)]
-    if kind != "ideal":
-        return []
-    value, expected = axis.signals["actual_position"], axis.reference.p
-    bad = differs(value, expected, sample_tolerance(axis, "actual_position"))
-    text = "actual_position of an ideal drive is not the set position"
-    return axis.findings("actual position", bad, axis.ticks, text, value=value, limit=expected, order=0)
+        return [*_lag(axis), *_lag_monitor(axis), *_steps(axis)]
+    return _ideal(axis) if kind == "ideal" else []
+
+
+def _ideal(axis: Axis) -> list[Finding]:
+    """With power the actual position is the set position, without it stays where it is; the lag is 0 with power."""
+    value, allowed = axis.signals["actual_position"], sample_tolerance(axis, "actual_position")
+    powered = axis.signals.get("ready", np.ones(len(value))) == 1.0
+    follows = np.concatenate([[True], powered[:-1]])
+    before = np.concatenate([value[:1], value[:-1]])
+    expected = np.where(follows, axis.reference.p, before)
+    bad = differs(value, expected, allowed) & (follows | ~axis.redefined)
+    text = "actual_position of an ideal drive is not the set position, or moves without power"
+    found = axis.findings("actual position", bad, axis.ticks, text, value=value, limit=expected, order=0)
+    if "lag" not in axis.signals:
+        return found
+    lag, nothing = axis.signals["lag"], np.zeros(len(value))
+    return found + axis.findings(
+        "lag", differs(lag, nothing, 0.0), axis.ticks, "an ideal drive has none", value=lag, limit=nothing, order=0
+    )
 
 
 def _lag(axis: Axis) -> list[Finding]:
-    """Under power |set(n - dead time) - actual(n)| is above its limit only for the filter time.
+    """The lag is set(n - dead time) - actual(n), or without communication both are those of the row before.
 
-    Without communication the actual position is stale, and nobody judges it for as long as the drive bears that.
+    A drive that hears nothing goes on by itself: what comes out of its dead time then is not the set position.
     """
-    monitor, drive = axis.machine.get("monitor", {}), axis.machine["drive"]
-    limit = monitor.get("lag")
-    if limit is None or "state" not in axis.signals:
+    if "lag" not in axis.signals:
         return []
-    dead = round(drive["dead_time"] / axis.dt)
-    actual, planned = axis.signals["actual_position"], axis.signals["set_position"]
-    known = ~_recently(axis.redefined, dead)
-    powered = ~np.isin(axis.signals["state"], (State.DISABLED, State.ERRORSTOP))
-    lag = np.abs(np.concatenate([planned[:1].repeat(dead), planned])[: len(planned)] - actual)
-    most = limit * (1.0 + TOLERANCES["plan limits"].relative) + 2.0 * sample_tolerance(axis, "actual_position")
-    over = known & powered & (lag > most)
-    rows = math.ceil(monitor["lag_time"] / axis.dt - 1e-6) + 1 + drive["patience"] + 1
-    text = "the lag is above its limit for longer than the filter time, and no error follows"
-    bad = _for_longer(over, rows)
+    lag, actual, planned = (axis.signals[name] for name in ("lag", "actual_position", "set_position"))
+    dead = _dead(axis)
+    expected = np.concatenate([planned[:1].repeat(dead), planned])[: len(planned)] - actual
+    wide = sample_tolerance(axis, "actual_position") + sample_tolerance(axis, "set_position")
+    apart = differs(lag, expected, wide + quantisation(axis, "lag") + 8.0 * EPS * _extent(axis))
+    stale = np.concatenate([[True], (np.diff(lag) == 0.0) & (np.diff(actual) == 0.0)])
+    early = (axis.ticks[0] > 0) & (np.arange(len(lag)) < dead)  # of what was before the first row
+    bad = apart & ~early & ~_recently(stale, dead) & ~_recently(axis.redefined, dead)
+    text = "is not set(n - dead time) - actual(n)"
+    return axis.findings("lag", bad, axis.ticks, text, value=lag, limit=expected, order=0)
+
+
+def _extent(axis: Axis) -> float:
+    """Return how large the positions of the drive can be: its coordinate stays when that of the axis is redefined."""
+    planned = axis.signals["set_position"]
+    leaps = np.abs(np.diff(planned))[axis.redefined[1:]].sum()
+    return float(np.abs(planned).max() + np.abs(axis.signals["actual_position"]).max() + leaps)
+
+
+def _dead(axis: Axis) -> int:
+    """Return the dead time of the drive in rows."""
+    return round(float(axis.machine["drive"]["dead_time"]) / axis.dt)
+
+
+def _lag_monitor(axis: Axis) -> list[Finding]:
+    """Under power the lag is above its limit for the filter time at most; else ErrorStop follows in the next row."""
+    monitor = axis.machine.get("monitor", {})
+    limit = monitor.get("lag")
+    if limit is None or any(name not in axis.signals for name in ("lag", "ready", "state")):
+        return []
+    lag, error = np.abs(axis.signals["lag"]), axis.signals["state"] == State.ERRORSTOP
+    most = limit + quantisation(axis, "lag")
+    over = (axis.signals["ready"] == 1.0) & ~error & (lag > most) & ~_recently(axis.redefined, _dead(axis))
+    filtered = math.ceil(monitor["lag_time"] / axis.dt - 1e-6)
+    bad = _for_longer(over, filtered) & ~np.concatenate([error[1:], [True]])
+    text = "above its limit for longer than the filter time, and no error follows"
     return axis.findings("lag", bad, axis.ticks, text, value=lag, limit=np.full(len(lag), float(limit)), order=0)
 
 

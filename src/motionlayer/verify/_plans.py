@@ -14,14 +14,13 @@ QUANTITIES: Final = ("position", "velocity", "acceleration")
 
 
 def machine_maxima(axis: Axis) -> list[Finding]:
-    """Limits of a plan are positive (velocity: or 0) and within the machine; those of `set` equal it."""
+    """Limits of a plan are positive and within the machine; those of `set` equal it."""
     curves, found = axis.curves, []
     for order, name in ((1, "velocity"), (2, "acceleration"), (2, "deceleration"), (3, "jerk")):
         limit, most = getattr(curves, name), axis.maximum(name)
         slack = TOLERANCES["limits"].relative * most
-        low = limit < 0.0 if name == "velocity" else limit <= 0.0
         other = (curves.kind == "set") & (np.abs(limit - most) > slack)
-        bad = low | (limit > most + slack) | other
+        bad = (limit <= 0.0) | (limit > most + slack) | other
         text = f"{name} a plan was made under does not fit the machine's maximum"
         found += axis.findings(
             "plan limits", bad, curves.tick, text, value=limit, limit=np.full(len(curves), most), order=order
@@ -30,11 +29,14 @@ def machine_maxima(axis: Axis) -> list[Finding]:
 
 
 def succession(axis: Axis) -> list[Finding]:
-    """Plans follow one another, one per tick and one `set` plan before it, beginning with a `set` plan at tick 0."""
+    """Plans follow one another, one per tick and one `set` plan before it, beginning with a `set` plan at tick 0.
+
+    Another one may begin inside the cycle: exactly where the one before it comes to its last piece.
+    """
     curves, nothing = axis.curves, np.full(len(axis.curves), np.nan)
     found = axis.findings(
         "plan order",
-        np.concatenate([[False], np.diff(curves.tick + curves.holds) <= 0]),
+        np.concatenate([[False], np.diff(curves.tick + curves.holds) + curves.inside[1:] <= 0]),
         curves.tick,
         "two plans in one tick, or a plan older than the one before it",
         value=nothing,
@@ -46,7 +48,13 @@ def succession(axis: Axis) -> list[Finding]:
     begin = curves.pieces[curves.first[:-1], 0]
     bad = (begin < 0.0) | (begin > np.maximum(curves.offset, 0.0)) | (curves.offset < -axis.dt)
     text = "the plan says nothing about its first cycle: its time there against its first piece"
-    return found + axis.findings("plan order", bad, curves.tick, text, value=curves.offset, limit=begin)
+    found += axis.findings("plan order", bad, curves.tick, text, value=curves.offset, limit=begin)
+    before = np.maximum(np.arange(len(curves)) - 1, 0)
+    left = curves.last_piece()[before, 0] - curves.time(before, curves.tick)
+    late = TOLERANCES["handover"].relative * (np.abs(curves.last_piece()[before, 0]) + axis.dt)
+    bad = curves.inside & ~(np.abs(left + curves.offset) <= late)
+    text = "the plan begins inside a cycle, not where the one before it ends: its wait against that"
+    return found + axis.findings("plan order", bad, curves.tick, text, value=-curves.offset, limit=left)
 
 
 def pieces_continuous(axis: Axis) -> list[Finding]:
@@ -77,7 +85,7 @@ def handovers(axis: Axis) -> list[Finding]:
     old = curves.at(new - 1, curves.time(new - 1, curves.tick[1:]) + wait)
     sizes = zip(point_tolerance(axis, now, "handover"), point_tolerance(axis, old, "handover"), strict=True)
     allowed = [one + other for one, other in sizes]
-    redefines = curves.kind[1:] == "set"
+    redefines, rests = curves.redefines[1:], curves.kind[1:] == "set"
     found = []
     for order, (begin, end) in enumerate(zip((now.p, now.v, now.a), (old.p, old.v, old.a), strict=True)):
         text = f"{QUANTITIES[order]} at the start of a plan is not that of the plan before it"
@@ -86,7 +94,7 @@ def handovers(axis: Axis) -> list[Finding]:
             bad &= ~redefines
         found += axis.findings("plan continuity", bad, curves.tick[1:], text, value=begin, limit=end, order=order)
         if order > 0:
-            moving = redefines & ~bad & (np.abs(begin) > allowed[order])
+            moving = rests & ~bad & (np.abs(begin) > allowed[order])
             text = f"the coordinate is redefined while it moves: {QUANTITIES[order]}"
             zero = np.zeros(len(begin))
             found += axis.findings(
@@ -96,21 +104,21 @@ def handovers(axis: Axis) -> list[Finding]:
 
 
 def ends(axis: Axis) -> list[Finding]:
-    """A plan ends for ever at its target: a position or a stop at rest, a velocity without acceleration.
+    """A plan ends for ever at its target: a position or a stop at rest, a velocity or a passing without acceleration.
 
     The last piece has no end, so that its velocity, acceleration and jerk are exact, not within a
-    tolerance. Under a velocity limit of 0 (override 0) no position is reached; there the plan ends at rest.
+    tolerance.
     """
     curves, slack = axis.curves, Slack.of(axis.curves)
     p, v, a, j = curves.last_piece()[:, 1:].T
     velocity, stop = curves.kind == "velocity", curves.kind == "stop"
     zero = np.zeros(len(p))
-    reaches = ~velocity & ~stop & (curves.velocity > 0.0)
+    reaches = ~velocity & ~stop
     cases: list[tuple[Flags, Floats, Floats, Floats, str, int]] = [
         (reaches, p, curves.target, slack.p, "the plan ends beside its target", 0),
         (velocity, v, curves.target, slack.v, "the plan ends beside its target velocity", 1),
-        (~velocity, v, zero, zero, "the plan ends with a velocity", 1),
-        (p == p, a, zero, zero, "the plan ends with an acceleration", 2),  # noqa: PLR0124
+        (~velocity & ~np.isin(curves.kind, ("passing", "shift")), v, zero, zero, "the plan ends with a velocity", 1),
+        (curves.kind != "shift", a, zero, zero, "the plan ends with an acceleration", 2),
         (p == p, j, zero, zero, "the plan ends with a jerk", 3),  # noqa: PLR0124
     ]
     found = []

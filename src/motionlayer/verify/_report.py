@@ -48,7 +48,8 @@ class Report:
         ticks: number of rows.
         plans: number of plans of the judged axes.
         commands: number of commands seen in the events.
-        complete: whether the trace is whole, neither incomplete nor damaged; `ok` speaks of what was judged of it.
+        complete: whether the trace is whole, neither incomplete nor damaged nor with gaps; `ok` speaks of what was
+            judged of it.
     """
 
     findings: tuple[Finding, ...]

@@ -23,6 +23,16 @@ def broken_off(trace: "Trace", *, partial: bool) -> list[str]:
     return [f"the {why}; judged up to tick {int(trace.ticks[-1])} ({float(trace.time[-1]):.6f} s)"]
 
 
+def missing_rows(trace: "Trace") -> list[str]:
+    """Return a note for each gap that the recorder has left because its writer did not keep up."""
+    return [
+        f"{gap.ticks} rows from tick {gap.first} on are missing, because the writer of the trace did not keep up; "
+        "judged before and after them, each part on its own"
+        for gap in trace.gaps
+        if gap.ticks
+    ]
+
+
 def unresolved_trace(trace: "Trace", *, partial: bool) -> list[str]:
     """Return why the trace as a whole cannot be judged; with `partial` damage is no reason."""
     header, reasons = trace.header, []
@@ -36,10 +46,15 @@ def unresolved_trace(trace: "Trace", *, partial: bool) -> list[str]:
         reasons.append(f"the base cycle is {trace.base_cycle} s")
     if not len(trace.ticks):
         return [*reasons, "the trace has no rows"]
-    gaps = np.flatnonzero(np.diff(trace.ticks) != 1)
-    if len(gaps):
-        first = int(trace.ticks[gaps[0]])
-        reasons.append(f"the ticks have {len(gaps)} gaps, the first one after tick {first}")
+    told = {(gap.first, gap.first + gap.ticks) for gap in trace.gaps}
+    jumps = [(int(trace.ticks[row]) + 1, int(trace.ticks[row + 1])) for row in trace.jumps]
+    untold = [jump for jump in jumps if jump not in told]
+    if untold:
+        first = untold[0][0] - 1
+        reasons.append(f"the ticks have {len(untold)} gaps that nothing explains, the first one after tick {first}")
+    lost = sum(gap.records for gap in trace.gaps)
+    if lost:
+        reasons.append(f"{lost} plans, events or inputs are missing, because the writer of the trace did not keep up")
     return reasons
 
 

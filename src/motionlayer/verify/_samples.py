@@ -7,8 +7,7 @@ import numpy as np
 from motionlayer.verify._axis import LIMITS, Axis
 from motionlayer.verify._curves import Flags, Floats
 from motionlayer.verify._report import Finding
-from motionlayer.verify._states import MAY_BE_OUTSIDE
-from motionlayer.verify._tolerance import TOLERANCES, differs, quantisation, sample_tolerance
+from motionlayer.verify._tolerance import TOLERANCES, Slack, differs, sample_tolerance
 
 SET: Final = (("set_position", "p", 0), ("set_velocity", "v", 1), ("set_acceleration", "a", 2))
 
@@ -37,28 +36,27 @@ def set_jerk(axis: Axis) -> list[Finding]:
 
 
 def limit_signals(axis: Axis) -> list[Finding]:
-    """Limit signals are those of the plan in force; software limits are the machine's."""
+    """Limit signals are those of the plan in force; software limits are the machine's, or written ones inside them."""
     found = []
     for signal, order in zip(LIMITS, (1, 2, 2, 3), strict=True):
         text = "is not the limit of the plan in force"
         found += _against(axis, "limit signal", signal, axis.limit(signal), order=order, text=text)
     for side in ("min", "max"):
-        limit = np.full(len(axis.ticks), axis.software_limit(side))
-        text = "is not the machine's"
-        found += _against(axis, "limit signal", f"software_limit_{side}", limit, order=0, text=text)
+        signal, text = f"software_limit_{side}", "is not the machine's"
+        found += _against(axis, "limit signal", signal, _settled(axis, side), order=0, text=text)
     return found
 
 
-def override(axis: Axis) -> list[Finding]:
-    """The override is between 0 and 1."""
-    value = axis.signals.get("override")
-    if value is None:
-        return []
-    widening = quantisation(axis, "override")
-    bad = ~((value >= -widening) & (value <= 1.0 + widening))
-    return axis.findings(
-        "override", bad, axis.ticks, "is not between 0 and 1", value=value, limit=np.clip(value, 0.0, 1.0)
-    )
+def _settled(axis: Axis, side: str) -> Floats:
+    """Return what a software limit is expected to be in each row: it changes only where a parameter is written."""
+    limit = axis.software_limit(side)
+    rows = np.searchsorted(axis.ticks, axis.written)
+    limit[: rows[0] if len(rows) else len(limit)] = axis.machine_limit(side)
+    changes = np.zeros(len(limit), np.int64)
+    inside = rows[rows < len(limit)]
+    changes[inside] = inside
+    last = np.maximum.accumulate(changes)
+    return limit[last]
 
 
 def differences(axis: Axis) -> list[Finding]:
@@ -71,7 +69,11 @@ def differences(axis: Axis) -> list[Finding]:
         return []
     p, v, a = (axis.signals[signal] for signal, _, _ in SET)
     wide_p, wide_v, wide_a = (sample_tolerance(axis, signal) for signal, _, _ in SET)
-    wide_p, wide_v, wide_a = (wide[1:] + wide[:-1] for wide in (wide_p, wide_v, wide_a))
+    joint, slack = _joints(axis), Slack.of(axis.curves)
+    wide_p, wide_v, wide_a = (
+        wide[1:] + wide[:-1] + np.where(joint, step[axis.serving[:-1]], 0.0)
+        for wide, step in ((wide_p, slack.p), (wide_v, slack.v), (wide_a, slack.a))
+    )
     dt, limit = axis.dt, axis.limit("max_jerk")
     jerk = np.maximum(limit[1:], limit[:-1]) * (1.0 + TOLERANCES["plan limits"].relative)
     cases = (
@@ -89,6 +91,12 @@ def differences(axis: Axis) -> list[Finding]:
     return found
 
 
+def _joints(axis: Axis) -> Flags:
+    """Tell for each cycle whether a plan begins inside: there the one before it may end beside its target."""
+    plan = axis.serving[1:]
+    return np.asarray(axis.curves.inside[plan] & (axis.curves.tick[plan] == axis.ticks[:-1]))
+
+
 def sampled_limits(axis: Axis) -> list[Finding]:
     """From the samples alone: |v| and |a| are inside the limits in force, or no further out than they must.
 
@@ -99,9 +107,11 @@ def sampled_limits(axis: Axis) -> list[Finding]:
     v, a = axis.signals["set_velocity"], axis.signals["set_acceleration"]
     wide_v, wide_a = sample_tolerance(axis, "set_velocity"), sample_tolerance(axis, "set_acceleration")
     start = np.maximum(curves.tick[plan] - axis.ticks[0], 0)
-    speed, strength = np.abs(v[start]), np.abs(a[start])
+    inside, piece = curves.inside[plan], curves.first[plan]  # no sample shows where a plan took over inside a cycle
+    begin_v, begin_a = (np.where(inside, curves.pieces[piece, 2 + k], one[start]) for k, one in enumerate((v, a)))
+    speed, strength = np.abs(begin_v), np.abs(begin_a)
     gain = strength * strength / (2.0 * curves.jerk[plan])
-    peak = np.where(v[start] * a[start] < 0.0, np.maximum(speed, gain - speed), speed + gain)
+    peak = np.where(begin_v * begin_a < 0.0, np.maximum(speed, gain - speed), speed + gain)
     share = 1.0 + TOLERANCES["plan limits"].relative
     most_v = np.maximum(curves.velocity[plan], peak) * share
     most_a = np.maximum(np.maximum(curves.acceleration, curves.deceleration)[plan], strength) * share
@@ -112,51 +122,4 @@ def sampled_limits(axis: Axis) -> list[Finding]:
         bad = ~(np.abs(value) <= most + widening)
         text = f"{name} above the limit in force"
         found += axis.findings("sampled limit", bad, axis.ticks, text, value=np.abs(value), limit=most, order=order)
-    return found
-
-
-def _no_weaker_brake(axis: Axis) -> Flags:
-    """Tell for each plan whether it is a stop that brakes no weaker than the plan before it allowed."""
-    curves = axis.curves
-    weaker = np.zeros(len(curves), np.bool_)
-    for limit in (curves.deceleration, curves.jerk):
-        weaker[1:] |= limit[1:] < limit[:-1] * (1.0 - TOLERANCES["limits"].relative)
-    weaker[1:] &= curves.kind[:-1] != "set"
-    return np.asarray((curves.kind == "stop") & ~weaker)
-
-
-def software_limits(axis: Axis) -> list[Finding]:
-    """The set position is inside the software limits.
-
-    It may be outside while Disabled or Homing and where the coordinate was redefined; from there on it must
-    not go further out, except while a stop brakes.
-    """
-    found, position = [], axis.signals["set_position"]
-    state = axis.signals.get("state", np.zeros(len(position)))
-    # The position of a row is the work of the state one row before.
-    exempt = np.isin(state, MAY_BE_OUTSIDE)
-    free = exempt | np.concatenate([exempt[:1], exempt[:-1]]) | axis.redefined | (axis.ticks == axis.ticks[0])
-    braking = _no_weaker_brake(axis)[axis.serving]
-    began = axis.curves.pieces[axis.curves.first[:-1], 1][axis.serving]
-    widening = sample_tolerance(axis, "set_position")
-    for side, sign in (("min", -1.0), ("max", 1.0)):
-        limit = axis.software_limit(side)
-        if np.isinf(limit):
-            continue
-        beyond = sign * (position - limit)
-        before = np.concatenate([[0.0], beyond[:-1]])
-        was_outside = before > np.concatenate([[0.0], widening[:-1]])
-        # From outside the way back may swing, in and out again: not farther out than where it began.
-        held = beyond <= np.maximum(np.where(was_outside, before, 0.0), sign * (began - limit)) + widening
-        bad = ~(beyond <= widening) & ~free & ~held & ~braking  # braking is never refused
-        text = f"set position beyond the software limit {side}"
-        found += axis.findings(
-            "software limit",
-            bad,
-            axis.ticks,
-            text,
-            value=position,
-            limit=np.full(len(position), limit),
-            order=0,
-        )
     return found

@@ -13,7 +13,6 @@ import numpy as np
 
 from motionlayer.verify._axis import Axis
 from motionlayer.verify._curves import Flags, Integers
-from motionlayer.verify._lives import Life
 from motionlayer.verify._report import Finding
 from motionlayer.verify._tolerance import sample_tolerance
 
@@ -39,8 +38,8 @@ AT_REST: Final = (_S.DISABLED, _S.STANDSTILL)
 REDEFINES: Final = (_S.DISABLED, _S.STANDSTILL, _S.HOMING, _S.ERRORSTOP)
 """States in which a coordinate may be redefined; an error may come in the same tick."""
 
-COMMANDED: Final = (_S.DISCRETE, _S.HOMING)
-"""States that last exactly as long as a command does."""
+COMMANDED: Final = (_S.DISCRETE, _S.CONTINUOUS, _S.HOMING)
+"""States that last exactly as long as the command does that moves the axis."""
 
 BY_ITSELF: Final[Mapping[State, Sequence[State]]] = {
     _S.DISABLED: (_S.STANDSTILL,),
@@ -48,6 +47,7 @@ BY_ITSELF: Final[Mapping[State, Sequence[State]]] = {
     _S.STOPPING: (_S.STANDSTILL,),
     _S.HOMING: (_S.STANDSTILL,),
     _S.DISCRETE: (_S.STANDSTILL,),
+    _S.CONTINUOUS: (_S.STANDSTILL,),
     _S.SYNCHRONIZED: (_S.STANDSTILL,),
 }
 """Changes at the end of a tick, all to a state of rest. ErrorStop, which all may enter, is left out."""
@@ -97,19 +97,8 @@ def _moving(axis: Axis) -> Flags:
     return np.asarray((np.abs(v) > wide_v) | (np.abs(a) > wide_a))
 
 
-def _open(axis: Axis, lives: Mapping[int, Life], before: int) -> Flags:
-    """Tell for each row whether a command of the axis is under way in it or in the `before` ticks before."""
-    change = np.zeros(len(axis.ticks) + 1, np.int64)
-    for life in lives.values():
-        if life.source == axis.name:
-            span = np.searchsorted(axis.ticks, [life.accepted, life.ended + before + 1])
-            change[span[0]] += 1
-            change[span[1]] -= 1
-    return np.asarray(np.cumsum(change[:-1]) > 0)
-
-
-def state_rules(axis: Axis, lives: Mapping[int, Life]) -> list[Finding]:
-    """All rules over the state signal."""
+def state_rules(axis: Axis) -> list[Finding]:
+    """All rules over the state signal but those over what a change is caused by."""
     if "state" not in axis.signals:
         return []
     value = axis.signals["state"]
@@ -119,7 +108,7 @@ def state_rules(axis: Axis, lives: Mapping[int, Life]) -> list[Finding]:
         return axis.findings("state", ~known, axis.ticks, "no such state", value=value, limit=least)
     state = value.astype(np.int64)
     moving = _moving(axis)
-    found = [*_succession(axis, state, moving, lives), *_rest(axis, state, moving)]
+    found = [*_succession(axis, state, moving), *_rest(axis, state, moving)]
     return [*found, *_kinds(axis, state, moving), *_redefinitions(axis, state)]
 
 
@@ -129,22 +118,13 @@ def _named(axis: Axis, rule: str, bad: Flags, state: Integers, message: str) -> 
     return axis.findings(rule, bad, axis.ticks, message, value=state.astype(np.float64), limit=before)
 
 
-def _succession(axis: Axis, state: Integers, moving: Flags, lives: Mapping[int, Life]) -> list[Finding]:
-    """States follow the diagram, and change because of a command (to ErrorStop: because of an error)."""
+def _succession(axis: Axis, state: Integers, moving: Flags) -> list[Finding]:
+    """States follow the diagram."""
     # Before a run begins its axes are Disabled.
     first = SUCCESSIONS[State.DISABLED, state[0]] if axis.ticks[0] == 0 else LEGAL
     verdict = np.concatenate([[first], SUCCESSIONS[state[:-1], state[1:]]])
-    changed = np.concatenate([[False], np.diff(state) != 0])
-    # A drive that was enabled once comes back by itself when its fault is over.
-    before = np.concatenate([state[:1], state[:-1]])
-    called = min((life.accepted for life in lives.values() if life.source == axis.name), default=np.inf)
-    back = (state == State.STANDSTILL) & (before == State.DISABLED) & (axis.ticks > called)
-    uncalled = changed & (state != State.ERRORSTOP) & ~back & ~_open(axis, lives, 1)
-    idle = np.isin(state, COMMANDED) & ~_open(axis, lives, 0)
     wrong = (verdict == ILLEGAL) | ((verdict == LEGAL_AT_REST) & moving)
-    found = _named(axis, "state order", wrong, state, "state (value) cannot follow the one before it (limit)")
-    found += _named(axis, "state cause", uncalled, state, "the state changes without a command")
-    return found + _named(axis, "state cause", idle & ~uncalled, state, "motion state without a command")
+    return _named(axis, "state order", wrong, state, "state (value) cannot follow the one before it (limit)")
 
 
 def _rest(axis: Axis, state: Integers, moving: Flags) -> list[Finding]:
@@ -158,8 +138,8 @@ def _kinds(axis: Axis, state: Integers, moving: Flags) -> list[Finding]:
     """What moves the axis fits its state. Under override 0 any plan may hold it."""
     kind = axis.curves.kind[axis.in_force]
     # An endless motion with a software limit ahead is planned to rest there.
-    limits = (axis.software_limit("min"), axis.software_limit("max"))
-    to_limit = (kind == "position") & np.isin(axis.curves.target[axis.in_force], limits)
+    target = axis.curves.target[axis.in_force]
+    to_limit = (kind == "position") & ((target == axis.software_limit("min")) | (target == axis.software_limit("max")))
     fits = np.select(
         [
             state == State.DISCRETE,
@@ -170,7 +150,11 @@ def _kinds(axis: Axis, state: Integers, moving: Flags) -> list[Finding]:
         [kind != "velocity", (kind == "velocity") | to_limit, kind == "stop", False],
         True,
     )
-    override = axis.signals.get("override", np.ones(len(state)))
+    # A jog key that is released brakes within the motion it began.
+    before = np.maximum(axis.in_force - 1, 0)
+    released = (kind == "stop") & (axis.curves.command[before] == axis.curves.command[axis.in_force])
+    fits |= (state == State.CONTINUOUS) & released
+    override = axis.signals.get("override", np.zeros(len(state)))
     soon = np.concatenate([moving[1:], [False]])
     bad = (moving | soon) & ~fits & (override != 0.0)
     return _named(axis, "state and plan", bad, state, "the plan in force is not of the kind this state moves by")
@@ -179,6 +163,6 @@ def _kinds(axis: Axis, state: Integers, moving: Flags) -> list[Finding]:
 def _redefinitions(axis: Axis, state: Integers) -> list[Finding]:
     """A coordinate is redefined while Disabled, in StandStill or Homing; a motion may begin in the same tick."""
     curves, plan = axis.curves, axis.in_force
-    begins = (curves.tick[plan] == axis.ticks) & (curves.kind[plan] != "set")
+    begins = (curves.tick[plan] == axis.ticks) & ~curves.redefines[plan]
     bad = axis.redefined & ~np.isin(state, REDEFINES) & ~begins
     return _named(axis, "state and plan", bad, state, "the coordinate is redefined in a state of motion")

@@ -128,7 +128,7 @@ def _limit_tolerance(axis: Axis, signal: str) -> Floats:
     if signal in LIMITS:
         return _relative("limits") * (axis.limit(signal) + axis.maximum(signal.removeprefix("max_")))
     if signal.startswith("software_limit_"):
-        limit = axis.software_limit(signal.removeprefix("software_limit_"))
+        limit = axis.machine_limit(signal.removeprefix("software_limit_"))
         near = abs(limit) if np.isfinite(limit) else 0.0
         return np.full(len(axis.ticks), _relative("limits") * (near + axis.maximum("velocity") * axis.dt))
     return np.zeros(len(axis.ticks))  # states and the override are exact

@@ -5,10 +5,15 @@ from typing import TYPE_CHECKING, Final
 
 from motionlayer.verify import _bounds, _drives, _plans, _samples
 from motionlayer.verify._axis import Axis
+from motionlayer.verify._causes import cause_rules
 from motionlayer.verify._commands import command_rules
 from motionlayer.verify._lives import Life, life_findings, read_lives
+from motionlayer.verify._moments import Moments
+from motionlayer.verify._overrides import override_rules
+from motionlayer.verify._power import power_rules
 from motionlayer.verify._report import Finding, Report
-from motionlayer.verify._resolve import broken_off, not_judged, unresolved_axis, unresolved_trace
+from motionlayer.verify._resolve import broken_off, missing_rows, not_judged, unresolved_axis, unresolved_trace
+from motionlayer.verify._software_limits import software_limits
 from motionlayer.verify._states import state_rules
 from motionlayer.verify._wellformed import malformed
 
@@ -21,14 +26,14 @@ RULES: Final[tuple[Callable[[Axis], list[Finding]], ...]] = (
     _plans.handovers,
     _plans.ends,
     _bounds.planned_limits,
+    _bounds.shortest_stops,
     _samples.set_values,
     _samples.set_jerk,
     _drives.actual_position,
     _samples.limit_signals,
-    _samples.override,
     _samples.differences,
     _samples.sampled_limits,
-    _samples.software_limits,
+    software_limits,
 )
 """Rules over one axis whose plans follow one another."""
 
@@ -36,7 +41,8 @@ RULES: Final[tuple[Callable[[Axis], list[Finding]], ...]] = (
 def verify(trace: "Trace", *, partial: bool = False) -> Report:
     """Judge a trace from its samples, plans, events and header alone; its stored hash is not looked at.
 
-    An incomplete trace is judged to where it ends, and `complete` of the report is False.
+    An incomplete trace is judged to where it ends, one with gaps before and after each of them; `complete` of the
+    report is False then.
 
     Args:
         trace: any trace, also one from another installation.
@@ -45,18 +51,20 @@ def verify(trace: "Trace", *, partial: bool = False) -> Report:
     Returns:
         The report; `ok` if everything was judged and nothing is wrong.
     """
-    notes = broken_off(trace, partial=partial)
+    notes = [*missing_rows(trace), *broken_off(trace, partial=partial)]
     lives, wrong = read_lives(trace.events)
     findings = life_findings(trace, wrong)
     refused = unresolved_trace(trace, partial=partial)
     judged: list[str] = []
+    stretches = trace.stretches()
     for name in [] if refused else trace.header["machine"]["axis"]:
         reasons = unresolved_axis(trace, name)
         refused += reasons
         if not reasons:
             judged.append(name)
             notes += not_judged(trace, name)
-            findings += _judge(trace, name, lives)
+            # What is wrong with a plan is found in each of them.
+            findings += dict.fromkeys(found for part in stretches for found in _judge(part, name, lives))
     return Report(
         findings=tuple(findings),
         refused=tuple(refused),
@@ -65,7 +73,7 @@ def verify(trace: "Trace", *, partial: bool = False) -> Report:
         ticks=len(trace.ticks),
         plans=sum(plan.axis in judged for plan in trace.plans),
         commands=len(lives),
-        complete=trace.complete,
+        complete=trace.complete and not trace.gaps,
     )
 
 
@@ -83,7 +91,9 @@ def _judge(trace: "Trace", name: str, lives: Mapping[int, Life]) -> list[Finding
     if disorder:
         return disorder
     findings = [finding for rule in RULES for finding in rule(axis)]
-    return [*findings, *state_rules(axis, lives), *command_rules(axis, lives)]
+    moments = Moments.of(axis, trace.events, lives)
+    findings += [*state_rules(axis), *cause_rules(axis, moments, lives), *power_rules(axis, moments)]
+    return [*findings, *override_rules(axis, lives), *command_rules(axis, lives)]
 
 
 def assert_valid(trace: "Trace", *, partial: bool = False) -> None:
@@ -93,7 +103,7 @@ def assert_valid(trace: "Trace", *, partial: bool = False) -> None:
 
     Args:
         trace: any trace.
-        partial: be content with a part: with a trace that is incomplete or damaged.
+        partial: be content with a part: with a trace that is incomplete, damaged or has gaps.
 
     Raises:
         AssertionError: something is wrong or could not be judged, or the trace is not whole.

@@ -7,7 +7,7 @@ import numpy as np
 if TYPE_CHECKING:
     from motionlayer.record import Plan
 
-KINDS: Final = ("position", "velocity", "stop", "set")
+KINDS: Final = ("position", "velocity", "stop", "set", "passing", "shift")
 
 
 def malformed(plan: "Plan") -> str:

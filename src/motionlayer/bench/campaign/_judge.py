@@ -82,12 +82,13 @@ def _ends(problem: Problem, profile: Profile) -> str:
     allowed = TOLERANCES.position * np.array([np.abs(start[0]) + np.abs(begin[0]), vel, max(acc, dec)])
     if not (np.abs(begin - start) <= (allowed if len(pieces) == 1 else 0.0)).all() or pieces[0, 0] != 0.0:
         return "it does not begin at the start"
-    end = pieces[-1].tolist()
-    if end[3:] != [0.0, 0.0] or end[2] != (problem.target if problem.kind == "velocity" else 0.0):
+    t, p, *motion = pieces[-1].tolist()
+    if motion != [problem.target if problem.kind == "velocity" else problem.velocity, problem.pull, 0.0]:
         return "it does not end at its velocity"
-    if problem.kind == "position" and end[1] != problem.target:
-        return "it does not end at its target"
-    return ""
+    if problem.kind == "rendezvous" and t != problem.at:
+        return "it does not end at its time"
+    there = problem.target + problem.velocity * t if problem.kind == "synchronise" else problem.target
+    return "it does not end at its target" if p != there and problem.kind not in {"velocity", "stop"} else ""
 
 
 def _side_by_side(problems: Sequence[Problem], profiles: Sequence[Profile]) -> Batch:

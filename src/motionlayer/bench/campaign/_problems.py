@@ -1,5 +1,6 @@
 """Random problems of the planner, in families, made a block at a time."""
 
+import math
 from collections.abc import Callable
 from typing import Final, NamedTuple
 
@@ -7,7 +8,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motionlayer.bench.campaign._campaign import stream
-from motionlayer.profile import Limits, Profile, plan_position, plan_stop, plan_velocity
+from motionlayer.profile import (
+    RANGES,
+    Limits,
+    Moving,
+    Profile,
+    State,
+    plan_passing,
+    plan_position,
+    plan_rendezvous,
+    plan_stop,
+    plan_synchronise,
+    plan_velocity,
+)
 
 Floats = NDArray[np.float64]
 
@@ -19,13 +32,28 @@ UNITS: Final = (1.0, 1e3, 1e-3, 72.0)
 
 LARGEST_JERK: Final = 1e9
 STREAM: Final = 1
-KINDS: Final = ("position", "velocity", "stop")
-SHARES: Final = (0.7, 0.2, 0.1)
+KINDS: Final = ("position", "velocity", "stop", "passing", "synchronise", "rendezvous")
+SHARES: Final = (0.45, 0.15, 0.1, 0.12, 0.08, 0.1)
 """Of the kinds."""
+
+BELOW: Final = 0.95
+"""Fastest moving target, of the velocity limit: one as fast as the limit and ahead stays out of reach."""
 
 
 class Problem(NamedTuple):
-    """A start state, what is asked, and limits."""
+    """A start state, what is asked, and limits.
+
+    Attributes:
+        kind: the name of the question; one of `KINDS`.
+        p: start position.
+        v: start velocity.
+        a: start acceleration.
+        target: the position asked for, of kind `velocity` the velocity.
+        limits: in force.
+        velocity: at the target.
+        pull: acceleration at the target.
+        at: when.
+    """
 
     kind: str
     p: float
@@ -33,6 +61,9 @@ class Problem(NamedTuple):
     a: float
     target: float
     limits: Limits
+    velocity: float = 0.0
+    pull: float = 0.0
+    at: float = math.inf
 
     def plan(self) -> Profile:
         """Plan it.
@@ -40,15 +71,29 @@ class Problem(NamedTuple):
         Raises:
             PlanError: the plan failed its check.
         """
-        if self.kind == "position":
-            return plan_position(self.p, self.v, self.a, self.target, self.limits)
-        if self.kind == "velocity":
-            return plan_velocity(self.p, self.v, self.a, self.target, self.limits)
-        return plan_stop(self.p, self.v, self.a, self.limits)
+        function, arguments, keywords = self._call()
+        return function(*arguments, **keywords)
 
     def __str__(self) -> str:
-        target = "" if self.kind == "stop" else f"{self.target!r}, "
-        return f"plan_{self.kind}({self.p!r}, {self.v!r}, {self.a!r}, {target}{self.limits!r})"
+        function, arguments, keywords = self._call()
+        texts = [*map(repr, arguments), *(f"{name}={value!r}" for name, value in keywords.items())]
+        return f"{function.__name__}({', '.join(texts)})"
+
+    def _call(self) -> tuple[Callable[..., Profile], tuple[object, ...], dict[str, float]]:
+        start = self.p, self.v, self.a
+        match self.kind:
+            case "position":
+                return plan_position, (*start, self.target, self.limits), {}
+            case "velocity":
+                return plan_velocity, (*start, self.target, self.limits), {}
+            case "passing":
+                return plan_passing, (*start, self.target, self.velocity, self.limits), {}
+            case "synchronise":
+                return plan_synchronise, (*start, Moving(self.target, self.velocity), self.limits), {}
+            case "rendezvous":
+                state = State(self.target, self.velocity, self.pull)
+                return plan_rendezvous, (*start, state, self.limits), {"at": self.at}
+        return plan_stop, (*start, self.limits), {}
 
 
 def problems(seed: int, block: int) -> list[Problem]:
@@ -57,17 +102,47 @@ def problems(seed: int, block: int) -> list[Problem]:
     rows = BLOCK // len(FAMILIES)
     columns = np.stack([family(rng, rows) for family in FAMILIES.values()], axis=1).reshape(BLOCK, -1)
     kinds = rng.choice(len(KINDS), BLOCK, p=SHARES)
-    velocities = columns[:, 4] * _share(rng, BLOCK)
+    shares = np.stack([_share(rng, BLOCK), _share(rng, BLOCK), _decades(rng, 0.0, 1.0, BLOCK)], axis=1)
     return [
-        _problem(KINDS[kind], row, velocity)
-        for kind, row, velocity in zip(kinds.tolist(), columns.tolist(), velocities.tolist(), strict=True)
+        _problem(KINDS[kind], row, *share)
+        for kind, row, share in zip(kinds.tolist(), columns.tolist(), shares.tolist(), strict=True)
     ]
 
 
-def _problem(kind: str, row: list[float], velocity: float) -> Problem:
-    p, v, a, target, *limits = row
-    targets = {"position": target, "velocity": velocity, "stop": 0.0}
-    return Problem(kind, p, v, a, targets[kind], Limits(*limits))
+def _problem(kind: str, row: list[float], share: float, pull: float, later: float) -> Problem:
+    """Return a problem; the shares say how fast its target is, how hard it accelerates, and how late it is met."""
+    p, v, a, target, *rest = row
+    limits = Limits(*rest)
+    problem = Problem(kind, p, v, a, target, limits)
+    u = share * limits.velocity
+    match kind:
+        case "velocity":
+            return problem._replace(target=u)
+        case "stop":
+            return problem._replace(target=0.0)
+        case "passing":
+            return problem._replace(velocity=u)
+        case "synchronise":
+            return problem._replace(velocity=BELOW * u)
+        case "rendezvous":
+            return _rendezvous(problem, BELOW * u, pull, later)
+    return problem
+
+
+def _rendezvous(problem: Problem, before: float, share: float, later: float) -> Problem:
+    """Return a problem with a state that a ramp from a velocity leads into, and with ample time.
+
+    Time to stop, to go there and back at full speed, and for all ramps: any state can be met then. Where that is
+    longer than the clock is promised to be fine, the problem is a move to rest.
+    """
+    vel, acc, dec, jerk = problem.limits
+    pull = share * min(acc, dec, math.sqrt(2.0 * jerk * (0.99 * vel - abs(before))))
+    top = abs(problem.v) + 0.5 * problem.a * problem.a / jerk + vel
+    ramps = 4.0 * (top / min(acc, dec) + (abs(problem.a) + acc + dec) / jerk)
+    at = later * ((abs(problem.target - problem.p) + ramps * top) / vel + ramps)
+    if at > RANGES.duration:
+        return problem._replace(kind="position")
+    return problem._replace(velocity=before + 0.5 * pull * abs(pull) / jerk, pull=pull, at=at)
 
 
 def _share(rng: np.random.Generator, count: int) -> Floats:

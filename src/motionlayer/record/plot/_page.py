@@ -144,6 +144,10 @@ def _subtitle(trace: Trace) -> str:
 
 def _warning(trace: Trace) -> str:
     """Say what is wrong with the trace itself."""
+    if trace.gaps:
+        lost = _grouped(sum(gap.ticks for gap in trace.gaps), 0)
+        first = _grouped(trace.gaps[0].first, 0)
+        return f"<div class=warn>{lost} ticks are missing, from tick {first} on: the writer did not keep up.</div>"
     if trace.complete:
         return ""
     if trace.damage:

@@ -71,11 +71,11 @@ def state_runs(trace: Trace, axis: str, most: int) -> list[Run]:
     states = column(trace, axis, "state")
     if states is None or not len(states):
         return []
-    rows = np.concatenate([[0], np.flatnonzero(np.diff(states)) + 1])
+    rows = np.concatenate([[0], np.union1d(np.flatnonzero(np.diff(states)), trace.jumps) + 1])
     if len(rows) > most:
         rows = np.unique(np.linspace(0, len(states) - 1, most).astype(np.intp))
     times = trace.time[rows]
-    ends = np.append(times[1:], trace.time[-1] + trace.base_cycle)
+    ends = trace.time[np.append(rows[1:] - 1, -1)] + trace.base_cycle
     return [Run(int(state), *span) for state, *span in zip(states[rows], times, ends, strict=True)]
 
 

@@ -89,9 +89,10 @@ def _line(trace: Trace, curve: Curve, selected: Indices, anchor: str, shown: set
     shown.add(group)
     unit = unit_of(curve.panel, axes_of(trace)[curve.axis])
     label = curve.axis if curve.kind == "solid" else f"{curve.axis} {name}"
+    x, y = _polyline(trace, curve, selected)
     return go.Scatter(
-        x=_times(trace, selected),
-        y=curve.values[selected].astype(np.float32),
+        x=x,
+        y=y,
         xaxis="x2",
         yaxis=anchor,
         mode="lines",
@@ -106,8 +107,14 @@ def _line(trace: Trace, curve: Curve, selected: Indices, anchor: str, shown: set
     )
 
 
-def _times(trace: Trace, rows: Indices) -> NDArray[np.floating[Any]]:
-    return trace.time[rows].astype(np.float32 if trace.ticks[-1] < SINGLE_TICKS else np.float64)
+def _polyline(trace: Trace, curve: Curve, rows: Indices) -> tuple[NDArray[np.floating[Any]], NDArray[np.float32]]:
+    """Return times and values of a curve; where ticks are missing the line is broken."""
+    jumps = trace.jumps
+    rows = np.unique(np.concatenate([rows, jumps, jumps + 1])) if len(jumps) else rows
+    times = trace.time[rows].astype(np.float32 if trace.ticks[-1] < SINGLE_TICKS else np.float64)
+    values = curve.values[rows].astype(np.float32)
+    behind = np.searchsorted(rows, jumps, side="right")
+    return np.insert(times, behind, np.nan), np.insert(values, behind, np.nan)
 
 
 def _in_strip(curve: Curve) -> bool:
@@ -117,9 +124,10 @@ def _in_strip(curve: Curve) -> bool:
 def _strip(trace: Trace, curve: Curve) -> go.Scatter:
     """Return the whole run of a position, for the strip."""
     selected = thin(curve.values, min(2400, STRIP_POINTS // len(drawn_axes(trace))))
+    x, y = _polyline(trace, curve, selected)
     return go.Scatter(
-        x=_times(trace, selected),
-        y=curve.values[selected].astype(np.float32),
+        x=x,
+        y=y,
         mode="lines",
         line={"color": colours(trace)[curve.axis], "width": 0.8},
         legendgroup=curve.axis,

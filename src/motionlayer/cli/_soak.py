@@ -1,0 +1,91 @@
+"""`motionlayer soak`: its options."""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import click
+
+from motionlayer.cli._options import speed
+
+
+class SoakOptions(NamedTuple):
+    """What `motionlayer soak` was asked for.
+
+    Attributes:
+        machine: the machine file.
+        cycles: ticks of the run, > 0.
+        warm_up: ticks after which memory counts; None for a tenth.
+        program: `FILE[:NAME]`, in the place of the programs of the machine file.
+        seed: in the place of the seed of the machine file.
+        realtime: in the time of a clock.
+        speed: times real time; only with `realtime`.
+        trace: file for the trace, whose end is judged.
+        report: file for the report.
+    """
+
+    machine: Path
+    cycles: int
+    warm_up: int | None
+    program: str | None
+    seed: int | None
+    realtime: bool
+    speed: float | None
+    trace: Path | None
+    report: Path | None
+
+
+def _json(_context: click.Context, _option: click.Parameter, value: Path | None) -> Path | None:
+    """Return a file for a report; its name keeps a slip from overwriting a machine."""
+    if value is not None and value.suffix.lower() != ".json":
+        raise click.BadParameter(f"{value}: a report is written as .json")
+    return value
+
+
+@click.command(short_help="Run a machine for long; report memory, drift, lateness.")
+@click.argument("machine", type=click.Path(path_type=Path))
+@click.option("--cycles", type=click.IntRange(1), required=True, metavar="N", help="Run N cycles.")
+@click.option(
+    "--warm-up",
+    type=click.IntRange(0),
+    metavar="N",
+    help="Cycles after which memory counts.  [a tenth, at most 1000000]",
+)
+@click.option(
+    "--program",
+    metavar="FILE[:NAME]",
+    help="Run the function NAME of FILE in the place of the programs of MACHINE.  [NAME: main]",
+)
+@click.option(
+    "--seed", type=click.IntRange(0, 2**63 - 1), metavar="N", help="Seed, in the place of the one of MACHINE."
+)
+@click.option("--realtime", is_flag=True, help="Run in the time of a clock.")
+@click.option(
+    "--speed",
+    type=float,
+    callback=speed,
+    metavar="X",
+    help="With --realtime: X times as fast as real time, 0.01 to 1000.  [1]",
+)
+@click.option(
+    "--trace",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Record the run to FILE, and judge the last 100000 cycles in the end.",
+)
+@click.option(
+    "--report",
+    type=click.Path(path_type=Path),
+    callback=_json,
+    metavar="FILE",
+    help="Write the report to FILE (.json).",
+)
+@click.pass_context
+def soak(ctx: click.Context, /, **options: object) -> None:
+    """Run the programs of MACHINE for a number of cycles, and report what that did to the process.
+
+    A program that ends is started again; one that fails ends the command. No message files are written, and without
+    --trace nothing is recorded: what grows is the run itself. Ctrl-C ends it with the report so far.
+    """
+    from motionlayer.cli._soaking import soaked  # noqa: PLC0415 - help does without it
+
+    ctx.exit(soaked(SoakOptions(**options)))  # type: ignore[arg-type]

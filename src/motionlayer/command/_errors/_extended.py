@@ -1,0 +1,55 @@
+"""Groups, planar motion, collision avoidance and tracks, 0x8100 to 0x81FF."""
+
+from typing import Final
+
+from motionlayer.command._errors._id import ErrorId as E
+from motionlayer.command._errors._text import ErrorText
+
+EXTENDED: Final = {
+    E.BODE_NOT_ENABLED: ErrorText("Bode plot: the axis is not enabled"),
+    E.BODE_AXIS_ERROR: ErrorText("Bode plot: the axis is in error"),
+    E.BODE_POSITION: ErrorText("Bode plot: monitoring of the position"),
+    E.OBJECT_CONFIGURATION: ErrorText("configuration of the object not valid"),
+    E.OBJECT_HIERARCHY: ErrorText("environment or hierarchy of objects wrong"),
+    E.NEVER_FINISHES: ErrorText(
+        "the command never finishes, such as a reset that is never done",
+        "mend the error that the drive still reports, then reset again",
+    ),
+    E.TRANSITION_MODE: ErrorText("transition mode not valid"),
+    E.GROUP_BUFFER_MODE: ErrorText("buffer mode not valid"),
+    E.GROUP_STATE: ErrorText("command not allowed in this state of the group"),
+    E.SYNC_UNREACHABLE: ErrorText("the slave cannot reach the sync position with these dynamics"),
+    E.DYNAMICS: ErrorText("acceleration, deceleration or jerk not valid"),
+    E.IDENT_IN_GROUP: ErrorText("ident in the group not valid"),
+    E.TARGET_UNSUPPORTED: ErrorText("the target does not support the command"),
+    E.QUEUE_FULL: ErrorText("command queue full"),
+    E.GROUP_VELOCITY: ErrorText("velocity missing or not valid"),
+    E.INPUT: ErrorText("input not valid"),
+    E.POSITION_DIMENSION: ErrorText("dimension of the position does not fit the axes convention"),
+    E.PATH_LENGTH_ZERO: ErrorText("path of length 0"),
+    E.AXIS_STATE: ErrorText("command not allowed in this state of the axis"),
+    E.TARGETS_UNREACHABLE: ErrorText("target positions cannot be reached"),
+    E.CIRCLE_DESCRIPTION: ErrorText("description of the circle not valid or ambiguous"),
+    E.NO_TRACK: ErrorText("no track is active for the mover"),
+    E.NOT_IN_TARGET: ErrorText("the axis was not in its target when the alarm ran out"),
+    E.CYCLIC_COUPLING: ErrorText("the coupling would be cyclic"),
+    E.NOT_IN_GROUP: ErrorText("the axis is not in a group"),
+    E.MOVER_ENABLE: ErrorText("enabling the mover is not allowed"),
+    E.GAP_CONTROL: ErrorText("parameters of the gap control not valid"),
+    E.POSITION_LIMIT: ErrorText("software position limit violated, or would be"),
+    E.NO_PATH: ErrorText("target cannot be reached, there is no path"),
+    E.MOVER_BUSY: ErrorText("the mover, or a coordinate that is needed, is busy"),
+    E.COLLISION: ErrorText("a collision happened, or would happen", "see the object in the way in the feedback"),
+    E.TRACK_GEOMETRY: ErrorText("geometry of the track conflicts with existing tracks"),
+    E.TRACK_STATE: ErrorText("command not allowed in this state of the track"),
+    E.REFERENCE: ErrorText("reference passed to a block not valid"),
+    E.PATH_LOCKED: ErrorText("the path is locked against changes"),
+    E.UNEXPECTED_AXIS_STATE: ErrorText("unexpected state of the axis"),
+    E.REFERENCE_SYSTEM: ErrorText("reference system not valid"),
+    E.OUTSIDE_REFERENCE_SYSTEM: ErrorText("position outside the reference system"),
+    E.BLOCKED: ErrorText("an earlier command blocks this one"),
+    E.INDEX: ErrorText("index not valid"),
+    E.CONFIGURATION: ErrorText("command not allowed in this configuration"),
+    E.PATH_PARAMETER: ErrorText("parameters of the path wrong"),
+    E.PATH_ORDER: ErrorText("commands may not be added to a path in this order"),
+}

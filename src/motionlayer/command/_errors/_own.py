@@ -1,0 +1,10 @@
+"""Our own, from 0xF000 on: what the NC has no id for."""
+
+from typing import Final
+
+from motionlayer.command._errors._id import ErrorId as E
+from motionlayer.command._errors._text import ErrorText
+
+OWN: Final = {
+    E.PROGRAM_FAILED: ErrorText("a program failed", "see the exception that left it", "programs"),
+}

@@ -1,0 +1,89 @@
+"""Blocks of one axis."""
+
+from typing import TYPE_CHECKING, Any, cast
+
+from motionlayer.command import Command, ErrorId
+from motionlayer.fb._axis_ref import AXIS_REF
+from motionlayer.fb._block import Block, CommandBlock, ExecuteBlock
+from motionlayer.fb._inputs import Input, boolean
+
+if TYPE_CHECKING:
+    from motionlayer import nc
+
+
+class OfAxis(Block):
+    """A block with an axis.
+
+    Args:
+        axis: what it commands; may also be given with a call, as `Axis=...`.
+    """
+
+    Axis = cast("AXIS_REF | None", Input("AXIS_REF", None, "the axis; in/out"))
+
+    def __init__(self, axis: AXIS_REF | None = None) -> None:
+        super().__init__()
+        self.Axis = axis
+
+    @property
+    def _ref(self) -> AXIS_REF:
+        ref = self.Axis
+        if not isinstance(ref, AXIS_REF):
+            name = type(self).__name__
+            raise TypeError(f"{name}: Axis is {ref!r}; give an AXIS_REF, as in {name}(run.axis_refs['X'])")
+        return ref
+
+    @property
+    def _axis(self) -> "nc.Axis":
+        return self._ref.axis
+
+
+class AxisCommandBlock(OfAxis, CommandBlock):
+    """A block that commands an axis.
+
+    The axis is that of the call in which the command begins; another one given while it runs is for the next command.
+    """
+
+    def _begin(self) -> None:
+        self._ledger = self._axis.ledger
+        super()._begin()
+
+    def _refuse(self, method: str, error: ErrorId, name: str, allowed: str) -> Command[Any]:
+        """Return a refused command for an input that its method cannot even be asked."""
+        return self._axis.refuse(method, error, f"{name} = {getattr(self, name)}, allowed: {allowed}")
+
+
+class AxisBlock(AxisCommandBlock, ExecuteBlock):
+    """An Execute block of an axis."""
+
+
+class EnableBlock(OfAxis):
+    """A block that acts as long as Enable is TRUE (function-blocks 1.5).
+
+    Attributes:
+        Valid: the outputs may be used.
+        Busy: Enable is TRUE.
+    """
+
+    Enable = boolean("TRUE: read or act in every call")
+
+    def __init__(self, axis: AXIS_REF | None = None) -> None:
+        super().__init__(axis)
+        self.Valid = False
+
+    def _call(self) -> None:
+        self.Busy = bool(self.Enable)
+        if self.Enable:
+            error = self._act()
+            self.Valid = error is None
+            self._show_error(error)
+        elif self.Valid or self.Error:
+            self.Valid = False
+            self._show_error(None)
+            self._clear()
+
+    def _act(self) -> ErrorId | None:
+        """Do the work of one call, or tell why it cannot be done."""
+        raise NotImplementedError
+
+    def _clear(self) -> None:
+        """Take the outputs back."""

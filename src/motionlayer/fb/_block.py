@@ -1,0 +1,197 @@
+"""What all function blocks have in common: inputs, outputs, and their life over calls.
+
+A block is an object that a program calls once per cycle, with the inputs that changed. Outputs are attributes. It never
+moves anything itself: it issues commands of an axis and shows what becomes of them, so that a call more or less in a
+cycle changes no motion.
+
+A block that commands is in one of the phases of `Phase`. A rising edge of Execute begins, the end of the command
+concludes, and what it concluded with is shown as long as Execute is TRUE, but in one call at least:
+
+    ========= ================= ============================ ==========================================
+    phase     at a call         next                         action
+    ========= ================= ============================ ==========================================
+    IDLE      rising edge       BUSY, or ERROR if refused     latch the inputs, issue the command
+    BUSY      command ended     DONE, ABORTED or ERROR        show it; an edge in this call is swallowed
+    BUSY      rising edge       BUSY                          none: a running command is never replaced
+    DONE ...  Execute FALSE     IDLE                          clear the outputs
+    DONE ...  rising edge       BUSY, or ERROR if refused     as from IDLE
+    ========= ================= ============================ ==========================================
+
+A busy block has to be called in every turn of its task. If it was not, and its command was aborted meanwhile, it cannot
+have told anybody in time: that is error 0x4B66. Source of the rules: function-blocks 1.4.
+"""
+
+import enum
+from typing import Any, ClassVar, Final
+
+from motionlayer.command import Command, ErrorId, Ledger, MotionError
+from motionlayer.fb._inputs import Input, boolean
+
+
+class Phase(enum.Enum):
+    """Where a block that commands is."""
+
+    IDLE = "idle"
+    BUSY = "busy"
+    DONE = "done"
+    ABORTED = "aborted"
+    ERROR = "error"
+
+
+NEXT: Final[dict[Phase, frozenset[Phase]]] = {
+    Phase.IDLE: frozenset({Phase.BUSY, Phase.ERROR}),
+    Phase.BUSY: frozenset({Phase.DONE, Phase.ABORTED, Phase.ERROR}),
+    Phase.DONE: frozenset({Phase.IDLE, Phase.BUSY, Phase.ERROR}),
+    Phase.ABORTED: frozenset({Phase.IDLE, Phase.BUSY, Phase.ERROR}),
+    Phase.ERROR: frozenset({Phase.IDLE, Phase.BUSY, Phase.ERROR}),
+}
+"""What may follow a phase; a block that does anything else is broken."""
+
+SHOWN: Final[dict[Phase, tuple[bool, bool, bool]]] = {
+    Phase.IDLE: (False, False, False),
+    Phase.BUSY: (True, False, False),
+    Phase.DONE: (False, True, False),
+    Phase.ABORTED: (False, False, True),
+    Phase.ERROR: (False, False, False),
+}
+"""Busy, Done and CommandAborted in each phase; Error and ErrorID come with what went wrong."""
+
+FIRST: Final = ("Axis", "Execute", "Enable")
+"""Inputs that stand before all others."""
+
+NO_TURNS: Final = Ledger()
+"""Stands still, until a block knows whom it commands."""
+
+
+class Block:
+    """A function block; subclasses declare their inputs in the class body.
+
+    Attributes:
+        INPUTS: of the class, by name.
+        HIDDEN: outputs that every block has and this one never sets.
+        Busy: the block is at work.
+        Error: something was refused or went wrong.
+        ErrorID: what; see `motionlayer.command.ERRORS`.
+    """
+
+    INPUTS: ClassVar[dict[str, Input]] = {}
+    HIDDEN: ClassVar[tuple[str, ...]] = ()
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        declared: dict[str, Input] = {}
+        for base in cls.__mro__:
+            declared |= {name: one for name, one in vars(base).items() if isinstance(one, Input)}
+        cls.INPUTS = {name: declared[name] for name in sorted(declared, key=lambda name: name not in FIRST)}
+
+    def __init__(self) -> None:
+        for name, entry in self.INPUTS.items():
+            self.__dict__[name] = entry.default() if isinstance(entry.default, type) else entry.default
+        self.Busy = False
+        self.Error = False
+        self.ErrorID = 0
+
+    def __call__(self, **inputs: Any) -> None:  # noqa: ANN401 - of the types that the block declares
+        """Take the inputs that are given, keep the others, and do the work of one call.
+
+        Raises:
+            TypeError: the block has no such input, or a value is of the wrong type.
+        """
+        if inputs:
+            if not self.INPUTS.keys() >= inputs.keys():
+                self._unknown(inputs)
+            self.__dict__.update(inputs)
+        self._call()
+
+    def _call(self) -> None:
+        raise NotImplementedError
+
+    def _unknown(self, inputs: dict[str, Any]) -> None:
+        wrong = ", ".join(name for name in inputs if name not in self.INPUTS)
+        raise TypeError(f"{type(self).__name__} has no input {wrong}; it has {', '.join(self.INPUTS)}")
+
+    def _show_error(self, error: MotionError | ErrorId | None) -> None:
+        self.Error = error is not None
+        self.ErrorID = 0 if error is None else int(error.id if isinstance(error, MotionError) else error)
+
+
+class CommandBlock(Block):
+    """A block that commands, whatever starts it.
+
+    Attributes:
+        Busy: the command runs, or waits for its turn.
+        Active: the axis works on it.
+        Done: it has come to its end.
+        CommandAborted: another command took over.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.Active = False
+        self.Done = False
+        self.CommandAborted = False
+        self._phase = Phase.IDLE
+        self._edge = False
+        self._command: Command[Any] | None = None
+        self._ledger = NO_TURNS
+        self._turn = 0
+
+    def _cycle(self, *, execute: bool) -> None:
+        """Do the work of one call; `execute` starts the command by its rising edge."""
+        if self.Busy:
+            self._watch()
+        elif execute:
+            if not self._edge:
+                self._begin()
+        elif self._phase is not Phase.IDLE:
+            self._enter(Phase.IDLE)
+        self._edge = execute
+
+    def _issue(self) -> Command[Any]:
+        """Give the command."""
+        raise NotImplementedError
+
+    def _begin(self) -> None:
+        """Issue the command; whatever it comes to, it is busy for one call at least, unless it is refused."""
+        issued = self._issue()
+        if issued.error is not None:
+            self._enter(Phase.ERROR, issued.error)
+            return
+        self._command = issued
+        self._turn = self._ledger.turn
+        self._enter(Phase.BUSY)
+        self.Active = issued.active
+
+    def _watch(self) -> None:
+        """Take up what has become of the command."""
+        command, last = self._command, self._turn
+        assert command is not None
+        self._turn = turn = self._ledger.turn
+        if command.busy:
+            self.Active = command.active
+        elif command.done:
+            self._enter(Phase.DONE)
+        elif command.error is not None:
+            self._enter(Phase.ERROR, command.error)
+        elif turn > last + 1:
+            self._enter(Phase.ERROR, ErrorId.NOT_CALLED_CYCLICALLY)
+        else:
+            self._enter(Phase.ABORTED)
+
+    def _enter(self, phase: Phase, error: MotionError | ErrorId | None = None) -> None:
+        assert phase in NEXT[self._phase], (self._phase, phase)
+        self._phase = phase
+        self.Busy, self.Done, self.CommandAborted = SHOWN[phase]
+        self.Active = False
+        self._show_error(error)
+        if phase is not Phase.BUSY:
+            self._command = None
+
+
+class ExecuteBlock(CommandBlock):
+    """A block that a rising edge of Execute starts."""
+
+    Execute = boolean("rising edge starts the command")
+
+    def _call(self) -> None:
+        self._cycle(execute=self.Execute)

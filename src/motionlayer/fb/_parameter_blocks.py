@@ -1,0 +1,119 @@
+"""Blocks that read and write parameters (function-blocks 2.4, 2.5)."""
+
+import enum
+import numbers
+from typing import Any, ClassVar, cast
+
+from motionlayer.command import Command, ErrorId
+from motionlayer.fb._axis_block import AxisBlock, EnableBlock
+from motionlayer.fb._axis_ref import AXIS_REF
+from motionlayer.fb._inputs import Input, boolean, integer, lreal
+from motionlayer.fb._parameters import UNKNOWN, find
+
+
+class E_ReadMode(enum.IntEnum):  # noqa: N801 - here and below, names of the interface
+    """How often a parameter is read."""
+
+    READMODE_ONCE = 1
+    READMODE_CYCLIC = 2
+
+
+class ReadParameter(EnableBlock):
+    """What both kinds have in common.
+
+    Attributes:
+        Value: of the parameter.
+    """
+
+    KIND: ClassVar[type]
+
+    ParameterNumber = integer("MC_AxisParameter", 0, "which parameter")
+    ReadMode = cast("int", Input("E_ReadMode", E_ReadMode.READMODE_ONCE, "once per rising edge, or in every call"))
+
+    def __init__(self, axis: AXIS_REF | None = None) -> None:
+        super().__init__(axis)
+        self.Value: float = self.KIND()
+
+    def _act(self) -> ErrorId | None:
+        if self.ReadMode not in (E_ReadMode.READMODE_ONCE, E_ReadMode.READMODE_CYCLIC):
+            return ErrorId.PARAMETER
+        if self.Valid and self.ReadMode == E_ReadMode.READMODE_ONCE:
+            return None
+        found = find(self.ParameterNumber, self.KIND)
+        if found is None:
+            return UNKNOWN
+        self.Value = found[1].read(self._ref)
+        return None
+
+    def _clear(self) -> None:
+        self.Value = self.KIND()
+
+
+class MC_ReadParameter(ReadParameter):  # noqa: N801
+    """Read a parameter that is a number."""
+
+    KIND = float
+
+
+class MC_ReadBoolParameter(ReadParameter):  # noqa: N801
+    """Read a parameter that is TRUE or FALSE."""
+
+    KIND = bool
+
+
+class WriteParameter(AxisBlock):
+    """What both kinds have in common."""
+
+    KIND: ClassVar[type]
+    PERSISTENT: ClassVar = False
+
+    ParameterNumber = integer("MC_AxisParameter", 0, "which parameter")
+    Value: float
+
+    def _issue(self) -> Command[Any]:
+        ref, found = self._ref, find(self.ParameterNumber, self.KIND)
+        if found is None or found[1].write is None:
+            allowed = f"a parameter of kind {self.KIND.__name__} that can be written"
+            return self._refuse("write_parameter", UNKNOWN, "ParameterNumber", allowed)
+        name, parameter = found
+        given: object = self.Value
+        if not isinstance(given, bool if self.KIND is bool else numbers.Real):
+            raise TypeError(f"Value is {given!r}, a {type(given).__name__}; it must be a {self.KIND.__name__}")
+        assert parameter.write is not None
+        if self.PERSISTENT and ref.keep is None:
+            detail = f"{name}: the machine file names no persistent_file"
+            return ref.axis.refuse("write_parameter", ErrorId.FUNCTION_NOT_ALLOWED, detail)
+        command = parameter.write(ref, name, self.Value)
+        if not self.PERSISTENT or ref.keep is None or command.error is not None:
+            return command
+        trouble = ref.keep(ref.axis.name, name, self.KIND(self.Value))
+        return ref.axis.refuse("write_parameter", ErrorId.INTERNAL, trouble) if trouble else command
+
+
+class MC_WriteParameter(WriteParameter):  # noqa: N801
+    """Write a parameter that is a number; it holds at once."""
+
+    KIND = float
+    Value = lreal(0.0, "new value, in the unit of the parameter")
+
+
+class MC_WriteBoolParameter(WriteParameter):  # noqa: N801
+    """Write a parameter that is TRUE or FALSE; it holds at once."""
+
+    KIND = bool
+    Value = boolean("new value")
+
+
+class MC_WriteParameterPersistent(MC_WriteParameter):  # noqa: N801
+    """Write a parameter that is a number, and keep it for the runs to come.
+
+    It is kept in the file that `persistent_file` of the machine file names, and written again at the start of each run.
+    """
+
+    PERSISTENT = True
+
+
+class MC_WriteBoolParameterPersistent(MC_WriteBoolParameter):  # noqa: N801
+    """Write a parameter that is TRUE or FALSE, and keep it for the runs to come; see MC_WriteParameterPersistent."""
+
+    PERSISTENT = True

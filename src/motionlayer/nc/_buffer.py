@@ -1,0 +1,247 @@
+"""The buffer of an axis: one command runs, one waits for it.
+
+The plan of the waiting one is appended to the row of the axis at acceptance, so that the change costs no time: it
+happens at the exact instant inside the cycle. The rules of the joint are those of `_ways`; what can be commanded when
+is function-blocks 2.8, and record 25 where that leaves a choice. A change of the override plans both anew.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+from motionlayer.command import Command, ErrorId, Ledger, MotionError
+from motionlayer.event import EventLog
+from motionlayer.nc._axis_ref import StateDWord
+from motionlayer.nc._config import AxisConfig, BufferMode
+from motionlayer.nc._limits import bad_target
+from motionlayer.nc._motion import DEFINITE, SCALED, AxisCommand, Job, JobKind, Refusal
+from motionlayer.nc._planning import AxisPlanning
+from motionlayer.nc._ways import Way, arrival, joint_speeds, scaled, through, way_of
+from motionlayer.profile import PlanError
+from motionlayer.store import JOB_BRAKE, JOB_COMPOUND, Ended, Q, Store
+
+if TYPE_CHECKING:
+    from motionlayer.nc._monitors import Monitors
+
+
+class Buffering(NamedTuple):
+    """When a command begins that is given while another one runs.
+
+    Attributes:
+        mode: see `BufferMode`.
+        position: of the joint, where a blending mode shall not use the target of the running command, u.
+    """
+
+    mode: BufferMode = BufferMode.ABORTING
+    position: float | None = None
+
+    @property
+    def blends(self) -> bool:
+        """The running command is handed over without rest."""
+        return self.mode not in (BufferMode.ABORTING, BufferMode.BUFFERED)
+
+
+AT_ONCE = Buffering()
+
+
+@dataclass(slots=True)
+class Follower:
+    """What waits for the running job.
+
+    Attributes:
+        job: the follower.
+        buffering: how it follows.
+        way: its plan, where it is appended; None where it waits for more than the setpoint of the running job.
+    """
+
+    job: Job
+    buffering: Buffering
+    way: Way | None = None
+
+
+class AxisBuffer(AxisPlanning):
+    """The buffer; the arguments are those of `AxisBase`."""
+
+    def __init__(self, config: AxisConfig, column: int, store: Store, ledger: Ledger, events: EventLog) -> None:
+        super().__init__(config, column, store, ledger, events)
+        self._follower: Follower | None = None
+        self.monitors: Monitors | None = None
+
+    @property
+    def buffered(self) -> AxisCommand | None:
+        """The command that waits for the running one."""
+        return self._follower.job.command if self._follower is not None else None
+
+    def _joint(self, buffering: Buffering) -> float | Refusal | None:
+        """Return where a command would begin that is given now; None for at once."""
+        job = self._job
+        if buffering.mode is BufferMode.ABORTING or job is None or job.kind not in DEFINITE:
+            return None
+        if self._follower is not None:
+            return Refusal(ErrorId.BUFFER_FULL, "one command runs and one is buffered")
+        end = self._end_of(job)
+        if not buffering.blends:
+            return end
+        if job.arrived:
+            return Refusal(ErrorId.DISTANCE_TOO_SHORT, "the setpoint of the running command has come to its target")
+        return end if buffering.position is None else self._blending_position(job, end, buffering.position)
+
+    def _end_of(self, job: Job) -> float:
+        """Return where a definite job ends."""
+        return job.target if job.kind is JobKind.POSITION else float(self._store.end_of(self._column)[1])
+
+    def _blending_position(self, job: Job, end: float, place: float) -> float | Refusal | None:
+        """Return a joint before the end of a job; None where it has been passed."""
+        unit = self.config.unit
+        if not math.isfinite(place):
+            return Refusal(ErrorId.TARGET_NOT_FINITE, f"blending_position = {place}")
+        heading = arrival(self._here, end, scaled(job, self.override))
+        if (end - place) * heading < 0.0:
+            return Refusal(ErrorId.BLENDING_POSITION, f"blending_position = {place}, it must lie before {end} {unit}")
+        return place if (place - self.set_position) * heading > 0.0 else None
+
+    def _follow(self, job: Job, buffering: Buffering, text: str) -> None:
+        """Let a job wait for the running one, or refuse it and change nothing."""
+        running, command = self._job, job.command
+        assert running is not None
+        assert command is not None
+        follower = Follower(job, buffering)
+        limits = running.limits
+        if job.kind is JobKind.HALT:
+            running.limits = limits._replace(
+                deceleration=max(limits.deceleration, job.limits.deceleration), jerk=max(limits.jerk, job.limits.jerk)
+            )
+        ways = self._fitted(running, follower)
+        if isinstance(ways, Refusal):
+            running.limits = limits
+            self._refuse(command, ways)
+            return
+        self._accept(command, text)
+        self._set_follower(follower)
+        if self._hands_over(running, follower):
+            self._chain(running, follower, ways)
+
+    def _set_follower(self, follower: Follower | None) -> None:
+        """Let a command wait, or nothing any more."""
+        self._follower = follower
+        self._flag(StateDWord.CmdBuffered, on=follower is not None)
+
+    def _fitted(self, running: Job, follower: Follower) -> tuple[Way, Way] | Refusal:
+        """Plan both jobs, or tell why one cannot follow the other; what override 0 holds is judged at 1."""
+        job, end, here = follower.job, self._end_of(running), self.set_position
+        if follower.buffering.blends and job.kind is JobKind.POSITION and job.target == end:
+            return Refusal(ErrorId.SAME_END_POSITION, f"target = {end} {self.config.unit}, as of the running command")
+        refusal = bad_target(self.config, job, end)
+        if refusal is not None:
+            return refusal
+        try:
+            ways = self._linked(running, follower, self.override or 1.0)
+        except PlanError as error:
+            return Refusal(ErrorId.INTERNAL, str(error))
+        if isinstance(ways, Refusal):
+            return ways
+        first, second = ways
+        return self._objection(running, first, here) or self._objection(job, second, first.end.p) or ways
+
+    def _linked(self, running: Job, follower: Follower, factor: float) -> tuple[Way, Way] | Refusal:
+        """Plan both jobs under an override > 0, so that they meet at their joint.
+
+        Raises:
+            PlanError: a plan failed its check.
+        """
+        config, job, buffering = self.config, follower.job, follower.buffering
+        if running.kind is JobKind.HALT or not buffering.blends:
+            first = way_of(config, running, self._here, factor)
+        else:
+            limits = scaled(running, factor)
+            place = running.target if buffering.position is None else buffering.position
+            heading = arrival(self._here, running.target, limits)
+            asked, highest = joint_speeds(config, buffering.mode, limits, heading, place, job, factor)
+            reached = through(self._here, place, heading, asked, limits, highest)
+            if reached is None:
+                detail = f"at {place} at most {highest} {config.unit}/s are possible for the new one"
+                return Refusal(ErrorId.DISTANCE_TOO_SHORT, detail)
+            first = reached
+        return first, way_of(config, job, first.end, factor)
+
+    def _chain(self, running: Job, follower: Follower, ways: tuple[Way, Way]) -> None:
+        """Put both jobs into the row of the axis."""
+        first, follower.way = ways
+        self._adopt(running, first)
+        self._store.append(self._column, follower.way.profile.pieces)
+        self._table[Q.JOB_KIND, self._column] = JOB_COMPOUND if running.kind in SCALED else JOB_BRAKE
+
+    def _hands_over(self, running: Job, follower: Follower) -> bool:
+        """Tell whether the end of the setpoint is all that a follower waits for: not for the actual position too."""
+        if running.arrived or self._held:
+            return False
+        monitored = self.monitors is not None and self.monitors.waits_for_target(self._column)
+        return not (monitored and running.kind is JobKind.POSITION and not follower.buffering.blends)
+
+    def _went_on(self, ended: Ended) -> None:
+        """Take up that the running job handed over to its follower inside the last cycle."""
+        running, follower = self._job, self._follower
+        assert running is not None
+        assert follower is not None
+        assert follower.way is not None
+        assert follower.job.event is not None
+        self._set_follower(None)
+        self._enter(self._step(follower.job.event))
+        if running.command is not None:
+            running.command.end_time = self._store.tick * self._store.dt - ended.early
+            self._end(running.command)
+        if follower.job.command is not None:
+            follower.job.command.activate()
+        self._put_in_force(follower.job, follower.way)
+        self._store.begun(self._column)
+
+    def _begin_follower(self) -> None:
+        """Let the follower begin from rest, at the present tick."""
+        follower = self._follower
+        self._set_follower(None)
+        assert follower is not None
+        job = follower.job
+        assert job.event is not None
+        self._enter(self._step(job.event))
+        if job.command is not None:
+            job.command.activate()
+        self._adopt(job, self._planned(job))
+
+    def _plan_anew(self) -> None:
+        """Plan the running job, and what follows it, from the present setpoint.
+
+        Raises:
+            PlanError: a plan failed its check.
+        """
+        job, follower = self._job, self._follower
+        assert job is not None
+        if follower is not None and self._hands_over(job, follower):
+            ways = self._linked(job, follower, self.override)
+            if isinstance(ways, Refusal):
+                raise PlanError(ways.detail)
+            self._chain(job, follower, ways)
+            return
+        self._passed_already(job)
+        self._adopt(job, self._planned(job))
+        if follower is not None and job.kind in SCALED:
+            self._table[Q.JOB_KIND, self._column] = JOB_COMPOUND
+
+    def _passed_already(self, job: Job) -> None:
+        """Let a job that has passed its target not go back to it."""
+        if job.kind is JobKind.CONTINUOUS and job.passed == 0.0 and self._reached(job):
+            job.passed = self._heading
+
+    def _reached(self, job: Job) -> bool:
+        """Tell whether CONTINUOUS has passed its target."""
+        return self._store.since(self._column) >= job.reach
+
+    def _drop_follower(self, by: Command[None] | None = None, error: MotionError | None = None) -> None:
+        """Empty the buffer: what waited ends aborted by a command, or with the error of the axis."""
+        follower = self._follower
+        self._set_follower(None)
+        if follower is None or follower.job.command is None:
+            return
+        if error is not None:
+            self._fail(follower.job.command, error)
+        else:
+            self._end(follower.job.command, by=by)

@@ -1,0 +1,195 @@
+"""Homing and the definition of positions."""
+
+import math
+from typing import TYPE_CHECKING
+
+from motionlayer.command import ErrorId
+from motionlayer.nc._config import Calibration, HomingMode
+from motionlayer.nc._homing import Homing
+from motionlayer.nc._motion import AxisCommand, Job, JobKind, Refusal, member, number, required
+from motionlayer.nc._states import AxisEvent, AxisState
+from motionlayer.nc._submission import AxisSubmission
+from motionlayer.profile import stop_at
+from motionlayer.store import Q, Watch
+
+if TYPE_CHECKING:
+    from motionlayer.nc._homing import Step
+
+
+class AxisReferencing(AxisSubmission):
+    """The coordinate of an axis; the arguments are those of `AxisBase`."""
+
+    _offset = 0.0
+    """What `set_position` has shifted the coordinate since the last homing, u."""
+
+    def home(
+        self, position: float | None = None, mode: Calibration = Calibration.DEFAULT, *, clear_lag: bool = False
+    ) -> AxisCommand:
+        """Find the reference; done when the axis is homed and at rest.
+
+        Args:
+            position: of the reference, u; that of the machine description where left out.
+            mode: DEFAULT finds it in the way the machine description says, DIRECT takes the present position; FORCE and
+                RESET only change whether the axis counts as homed.
+            clear_lag: with DIRECT the actual position becomes the set position too.
+
+        Raises:
+            TypeError: the position is not a number, or the mode no `Calibration`.
+        """
+        command = AxisCommand(self, "home")
+        reference, kind = number("position", position), member("mode", mode, Calibration)
+        reference = self.config.home.position if reference is None else reference
+        if not math.isfinite(reference):
+            return self._refuse(command, Refusal(ErrorId.TARGET_NOT_FINITE, f"position = {reference}"))
+        way = HomingMode.DIRECT if kind is Calibration.DIRECT else self.config.home.mode
+        state = self._next(AxisEvent.HOME, command)
+        if state is None:
+            return command
+        if kind is Calibration.DEFAULT and way is not HomingMode.DIRECT and not all(self._feed):
+            return self._refuse(command, Refusal(ErrorId.FEED_NOT_ENABLED, "a homing needs both directions"))
+        self._accept(command, f"home(position={reference})" if kind is Calibration.DEFAULT else f"home({kind.name})")
+        if kind in (Calibration.FORCE, Calibration.RESET):
+            self.homed = kind is Calibration.FORCE
+            self._end(command)
+            return command
+        self._enter(state)
+        if clear_lag and kind is Calibration.DIRECT:
+            self._set_plan(self.actual_position)
+        self._homing = Homing(self, command, reference, way)
+        self._homing.begin()
+        return command
+
+    def define_position(
+        self,
+        position: float = 0.0,
+        *,
+        relative: bool = False,
+        clear_lag: bool = False,
+        clear_offset: bool = False,
+    ) -> AxisCommand:
+        """Give the place where the axis is another position (MC_SetPosition); done at once.
+
+        In motion it may be shifted (`relative`): targets, also that of a buffered command, are shifted with it.
+
+        Args:
+            position: new actual position, u; with `relative` what is added to the present one.
+            relative: shift the coordinate.
+            clear_lag: the set position becomes the actual one; else it moves by the same amount, so that the lag stays.
+            clear_offset: go back to the coordinate of the last homing; the position is ignored.
+
+        Raises:
+            TypeError: the position is not a number.
+        """
+        command = AxisCommand(self, "define_position")
+        place = required("position", position)
+        if not math.isfinite(place):
+            return self._refuse(command, Refusal(ErrorId.TARGET_NOT_FINITE, f"position = {place}"))
+        moves = self._job is not None
+        if self._state in (AxisState.ERRORSTOP, AxisState.HOMING) or (moves and (clear_lag or not relative)):
+            detail = f"state {self._state!s}, allowed: at rest, in motion only relative and without clear_lag"
+            return self._refuse(command, Refusal(ErrorId.GROUP_BUSY, detail))
+        refusal = self._misplaced(place) if moves else None
+        if refusal is not None:
+            return self._refuse(command, refusal)
+        self._accept(command, f"define_position(position={place}, {relative=}, {clear_lag=}, {clear_offset=})")
+        shift = -self._offset if clear_offset else place if relative else place - self.actual_position
+        if clear_lag:
+            self._set_plan(self.actual_position)
+        self._offset += shift
+        if moves:
+            self._shift(shift)
+        else:
+            self._redefine(self.set_position + shift)
+        self._end(command)
+        return command
+
+    def _misplaced(self, way: float) -> Refusal | None:
+        """Tell why the coordinate cannot be shifted in motion: what was commanded would lie outside its limits."""
+        job, low, high = self._job, self.config.limit_min, self.config.limit_max
+        if job is None:
+            return None
+        places = [stop_at(*self._here, self._running())]
+        places += [one.target for one in self._targeted()]
+        for place in places:
+            if not low <= place + way <= high:
+                text = f"position {place + way}, allowed: {low} to {high} {self.config.unit}"
+                return Refusal(ErrorId.TARGET_OUTSIDE_LIMITS, text)
+        return None
+
+    def _targeted(self) -> list[Job]:
+        """Return the running and the buffered job, where they have a target position."""
+        jobs = [self._job, self._follower.job if self._follower is not None else None]
+        return [one for one in jobs if one is not None and one.kind in (JobKind.POSITION, JobKind.CONTINUOUS)]
+
+    def _shift(self, way: float) -> None:
+        """Shift the coordinate in motion, with all that was commanded in it."""
+        for job in self._targeted():
+            job.target += way
+        follower = self._follower
+        if follower is not None and follower.buffering.position is not None:
+            follower.buffering = follower.buffering._replace(position=follower.buffering.position + way)
+        commanded = self._commanded
+        self._table[Q.SHIFT, self._column] += way
+        self._table[Q.ACTUAL_P, self._column] += way
+        self._store.shift(self._column, way)
+        self._guarded(self._plan_anew)
+        self._commanded = None if commanded is None else commanded + way
+
+    # -- what a homing needs -------------------------------------------------------------------------------------
+
+    def search(self, velocity: float, command: AxisCommand) -> None:
+        """Move with a signed velocity for the homing, software limits aside."""
+        limits = self.config.default._replace(velocity=abs(velocity))
+        self._replan(Job(JobKind.SEARCH, velocity, limits, command))
+
+    def brake(self, command: AxisCommand) -> None:
+        """Come to rest for the homing."""
+        self._replan(Job(JobKind.BRAKE, math.nan, self.config.default, command))
+
+    def show_phase(self, phase: int) -> None:
+        """Show the phase of the homing."""
+        self._table[Q.HOMING, self._column] = phase
+
+    def guard(self, position: float, homing: Homing) -> None:
+        """Tell a homing when the setpoint passes a position, if it is still in the same step then."""
+        step: Step = homing.step
+
+        def passed(_early: float) -> None:
+            if self._homing is homing:
+                homing.too_far(step)
+
+        if self._bound is not None:
+            self._store.unwatch(self._bound)
+        self._bound = Watch(self._column, position, passed)
+        self._store.watch(self._bound)
+
+    def finish_homing(self, position: float, command: AxisCommand) -> None:
+        """Redefine the present position, end the homing."""
+        self._redefine(position)
+        self._offset = 0.0
+        self.homed = True
+        self._drop_job()
+        self._leave_homing()
+        self._enter(self._step(AxisEvent.AT_REST))
+        self._end(command)
+
+    @property
+    def at_home_input(self) -> bool:
+        """The reference switch is on."""
+        return bool(self._table[Q.HOME_INPUT, self._column])
+
+    @property
+    def home_latch(self) -> float:
+        """Drive position at the last edge of the reference switch, in the present coordinate."""
+        return float(self._table[Q.HOME_LATCH, self._column] + self._table[Q.SHIFT, self._column])
+
+    @property
+    def index_latch(self) -> float | None:
+        """Position of the zero pulse since the latch was armed, in the present coordinate; None while it waits."""
+        if self._table[Q.INDEX_ARMED, self._column] != 0.0:
+            return None
+        return float(self._table[Q.INDEX_LATCH, self._column] + self._table[Q.SHIFT, self._column])
+
+    def arm_latch(self) -> None:
+        """Let the drive latch the next zero pulse."""
+        self._table[Q.INDEX_ARMED, self._column] = 1.0

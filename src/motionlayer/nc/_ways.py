@@ -1,0 +1,277 @@
+"""Ways: from a job and a state to a profile, without an axis.
+
+A *joint* is where one job hands over to the next: a position, passed with a velocity and without acceleration.
+Several rules meet there (function-blocks 2.8; record 25):
+
+- the buffer mode names a speed out of those of the two jobs;
+- a follower that turns back needs rest, and one that ends soon needs a speed from which it can still brake;
+- the running job may be too near to reach that speed, or to brake down to it: then it is the nearest it can reach.
+
+A job that is to be faster at its end than on its way keeps to its own velocity and gains the rest just before the
+joint.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from motionlayer.nc._config import AxisConfig, BufferMode
+from motionlayer.nc._motion import BOUNDED, SCALED, Job, JobKind
+from motionlayer.profile import (
+    Limits,
+    Profile,
+    passable_velocity,
+    plan_passing,
+    plan_position,
+    plan_stop,
+    plan_velocity,
+    stop_at,
+    stop_displacement,
+)
+
+HALVINGS: Final = 48
+"""Steps of a bisection."""
+
+BLUR: Final = 1e-9
+"""Relative: two places are one that are nearer than this share of the ways, and a slower motion is rest."""
+
+
+class Point(NamedTuple):
+    """Position, velocity and acceleration of a setpoint: u, u/s, u/s²."""
+
+    p: float
+    v: float
+    a: float
+
+
+class Way(NamedTuple):
+    """A profile, and the limits that are in force on it."""
+
+    profile: Profile
+    limits: Limits
+
+    @property
+    def end(self) -> Point:
+        """Where the last piece begins."""
+        _, p, v, a, _ = self.profile.pieces[-1].tolist()
+        return Point(p, v, a)
+
+
+BLENDED: Final[Mapping[BufferMode, Callable[[float, float], float]]] = {
+    BufferMode.BUFFERED: lambda _first, _second: 0.0,
+    BufferMode.BLENDING_LOW: min,
+    BufferMode.BLENDING_PREVIOUS: lambda first, _second: first,
+    BufferMode.BLENDING_NEXT: lambda _first, second: second,
+    BufferMode.BLENDING_HIGH: max,
+}
+"""Speed at the joint, from those of the running job and of the follower."""
+
+
+def scaled(job: Job, factor: float) -> Limits:
+    """Return the limits of a job under an override; at 0 and 1 as they are."""
+    if job.kind not in SCALED or factor in {0.0, 1.0}:
+        return job.limits
+    return job.limits._replace(velocity=job.limits.velocity * factor)
+
+
+def limit_ahead(config: AxisConfig, direction: float) -> float:
+    """Return the software limit in a direction."""
+    return config.limit_max if direction > 0.0 else config.limit_min
+
+
+def way_of(config: AxisConfig, job: Job, start: Point, factor: float) -> Way:
+    """Plan a job.
+
+    Args:
+        config: of the axis.
+        job: what to plan; of CONTINUOUS, `reach` is set.
+        start: where it begins.
+        factor: override; 0 brakes what it scales.
+
+    Raises:
+        PlanError: the plan failed its check.
+    """
+    limits = scaled(job, factor)
+    if job.kind not in SCALED or factor == 0.0:
+        return Way(plan_stop(*start, limits), limits)
+    if job.kind is JobKind.POSITION:
+        return Way(plan_position(*start, job.target, limits), limits)
+    if job.kind is JobKind.CONTINUOUS:
+        return _continuous(config, job, start, factor)
+    if job.kind in BOUNDED:
+        return _endless(config, start, math.copysign(limits.velocity, job.target), limits)
+    return Way(plan_velocity(*start, math.copysign(limits.velocity, job.target), limits), limits)
+
+
+def _endless(config: AxisConfig, start: Point, velocity: float, limits: Limits) -> Way:
+    """Plan to a velocity and on with it, up to a software limit ahead."""
+    end = limit_ahead(config, velocity)
+    if math.isfinite(end):
+        return Way(plan_position(*start, end, limits), limits)
+    return Way(plan_velocity(*start, velocity, limits), limits)
+
+
+def _continuous(config: AxisConfig, job: Job, start: Point, factor: float) -> Way:
+    """Plan past the target with the end velocity, or the nearest that can be reached there, and on with it."""
+    limits, speed = scaled(job, factor), job.end_speed * factor
+    highest, slow = limits._replace(velocity=max(limits.velocity, speed)), limits._replace(velocity=speed)
+    if job.passed != 0.0:
+        return Way(_endless(config, start, job.passed * speed, slow).profile, highest)
+    heading = arrival(start, job.target, limits)
+    first = through(start, job.target, heading, speed, limits)
+    assert first is not None, (start, job)  # it arrives from where it can come to rest
+    job.reach = first.profile.duration
+    rest = _endless(config, first.end, heading * speed, slow)
+    return Way(joined(first.profile, rest.profile), highest)
+
+
+def arrival(start: Point, place: float, limits: Limits) -> float:
+    """Return the direction in which the fastest way to rest at `place` arrives there, +1 or -1."""
+    rest = stop_at(*start, limits)
+    if abs(place - rest) <= BLUR * (abs(place - start.p) + abs(rest - start.p)):
+        return math.copysign(1.0, start.v if start.v != 0.0 else place - start.p)
+    return math.copysign(1.0, place - rest)
+
+
+def through(
+    start: Point, place: float, heading: float, speed: float, limits: Limits, highest: float = math.inf
+) -> Way | None:
+    """Plan through `place`, with the nearest speed to `speed` that can be reached there without turning back.
+
+    Args:
+        start: where the way begins.
+        place: position that the last piece begins at, u.
+        heading: direction in which it is passed, +1 or -1.
+        speed: u/s; above the velocity limit too.
+        limits: in force on the way.
+        highest: that is allowed there, u/s; at least `speed`.
+
+    Returns:
+        The way, its velocity limit raised where it is faster at the end; None where the axis can neither pass the place
+        so slowly nor come to rest there.
+
+    Raises:
+        PlanError: a plan failed its check.
+    """
+    if speed > limits.velocity:
+        late = _gained_late(start, place, heading * speed, limits)
+        if late is not None:
+            return late
+    reached = _reachable(start, place, heading, speed, _at_least(limits, speed), highest)
+    if reached is None:
+        return None
+    if reached == 0.0:
+        return Way(plan_position(*start, place, limits), limits)
+    raised = _at_least(limits, reached)
+    return Way(plan_passing(*start, place, heading * reached, raised), raised)
+
+
+def _at_least(limits: Limits, speed: float) -> Limits:
+    """Return limits with a velocity of at least `speed`."""
+    return limits if speed <= limits.velocity else limits._replace(velocity=speed)
+
+
+def _reachable(
+    start: Point, place: float, heading: float, speed: float, limits: Limits, highest: float
+) -> float | None:
+    """Return the nearest speed that can be reached at a place; None without one, not even 0.
+
+    A stop can be shorter than the way to a lower speed, since its acceleration is brought to zero while the axis
+    hardly moves. So what is reachable may have a gap above 0.
+    """
+    found = abs(passable_velocity(*start, place, heading * speed, limits)) if speed > 0.0 else 0.0
+    if BLUR * limits.velocity < found <= highest * (1.0 + BLUR):
+        return found
+    rest = stop_at(*start, limits)
+    if (place - rest) * heading < -BLUR * (abs(place - start.p) + abs(rest - start.p)):
+        return None
+    low, high = 0.0, min(speed, highest)
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if abs(passable_velocity(*start, place, heading * middle, limits)) == middle:
+            low = middle
+        else:
+            high = middle
+    return low if low > BLUR * limits.velocity else 0.0
+
+
+def _gained_late(start: Point, place: float, velocity: float, limits: Limits) -> Way | None:
+    """Keep to the velocity limit and gain the rest at the end; None where there is no room for that."""
+    fast = limits._replace(velocity=abs(velocity))
+    own = math.copysign(limits.velocity, velocity)
+    gain = plan_velocity(0.0, own, 0.0, velocity, fast)
+    begin = place - float(gain.pieces[-1, 1])
+    if passable_velocity(*start, begin, own, limits) != own:
+        return None
+    first = plan_passing(*start, begin, own, limits)
+    whole = joined(first, plan_velocity(begin, own, 0.0, velocity, fast))
+    whole.pieces[-1, 1] = place
+    return Way(whole, fast)
+
+
+def joined(first: Profile, second: Profile) -> Profile:
+    """Return one profile: the first up to its last piece, then the second, which begins there."""
+    later = second.pieces.copy()
+    later[:, 0] += first.duration
+    pieces = np.concatenate([first.pieces[:-1], later])
+    return Profile(pieces, min(first.low, second.low), max(first.high, second.high))
+
+
+def joint_speeds(
+    config: AxisConfig, mode: BufferMode, first: Limits, heading: float, place: float, job: Job, factor: float
+) -> tuple[float, float]:
+    """Return the speed that a follower asks for at a joint, and the highest one from which it can go on.
+
+    Args:
+        config: of the axis.
+        mode: not ABORTING.
+        first: limits of the running job, with the override.
+        heading: direction in which it arrives.
+        place: position of the joint.
+        job: the follower.
+        factor: override.
+    """
+    limits = scaled(job, factor)
+    asked = BLENDED[mode](first.velocity, 0.0 if job.kind is JobKind.HALT else limits.velocity)
+    if asked == 0.0:
+        return 0.0, math.inf
+    end, slow = _way_out(config, job, heading)
+    if (end - place) * heading <= 0.0:
+        return 0.0, math.inf
+    highest = _brakeable(max(first.velocity, asked), min(slow * factor, asked), abs(end - place), limits)
+    return min(asked, highest), highest
+
+
+def _way_out(config: AxisConfig, job: Job, heading: float) -> tuple[float, float]:
+    """Return up to where a follower may go in the direction of the running job, and the speed it may have there."""
+    if job.kind is JobKind.POSITION:
+        return job.target, 0.0
+    if job.kind is JobKind.CONTINUOUS:
+        return job.target, job.end_speed
+    if job.kind is not JobKind.HALT and job.target * heading < 0.0:
+        return -heading * math.inf, 0.0
+    return limit_ahead(config, heading), 0.0
+
+
+def _brakeable(most: float, end: float, room: float, limits: Limits) -> float:
+    """Return the highest speed, `most` at most, from which `end` is reached within `room`."""
+    if math.isinf(room) or _braking_way(most, end, limits) <= room:
+        return most
+    low, high = end, most
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if _braking_way(middle, end, limits) <= room:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+def _braking_way(speed: float, end: float, limits: Limits) -> float:
+    """Return the way from one speed down to another."""
+    if end <= 0.0:
+        return stop_displacement(speed, 0.0, limits.deceleration, limits.jerk)
+    down = plan_velocity(0.0, speed, 0.0, min(end, speed), limits._replace(velocity=speed))
+    return float(down.pieces[-1, 1])

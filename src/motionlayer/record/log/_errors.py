@@ -1,0 +1,2 @@
+class LogError(Exception):
+    """Message files cannot be written; the text says which, why and the way out."""

@@ -1,0 +1,193 @@
+"""Parameters by number: every entry of the table reads, writes within its range, and holds at once."""
+
+import math
+from typing import Any
+
+import pytest
+
+from motionlayer.command import ErrorId
+from motionlayer.fb import (
+    PARAMETERS,
+    E_ReadMode,
+    MC_AxisParameter,
+    MC_MoveAbsolute,
+    MC_ReadBoolParameter,
+    MC_ReadParameter,
+    MC_WriteBoolParameter,
+    MC_WriteParameter,
+)
+from tests.machines import finish
+
+from .observer import Observer
+from .rig import Rig
+
+P = MC_AxisParameter
+NUMBERS = [name for name, entry in PARAMETERS.items() if entry.kind is float]
+SWITCHES = [name for name, entry in PARAMETERS.items() if entry.kind is bool]
+WRITABLE = [name for name in NUMBERS if PARAMETERS[name].write is not None]
+MONITOR = {
+    "lag": 5.0, "lag_time": 0.02, "range_window": 5.0, "target_window": 2.0, "target_time": 0.002,
+    "target_timeout": 1.0,
+}  # fmt: skip
+
+
+def read(rig: Rig, number: int) -> Any:
+    block: Any = (MC_ReadBoolParameter if number in SWITCHES else MC_ReadParameter)(rig.ref)
+    rig.cycle(1, lambda: block(Enable=True, ParameterNumber=number))
+    assert block.Valid, hex(block.ErrorID)
+    return block.Value
+
+
+def write(rig: Rig, number: int, value: Any) -> int:
+    block: Any = (MC_WriteBoolParameter if number in SWITCHES else MC_WriteParameter)(rig.ref)
+    observer = Observer()
+    rig.cycle(2, lambda: block(Execute=True, ParameterNumber=number, Value=value), lambda: observer.look(block))
+    assert block.Done != block.Error
+    return int(block.ErrorID)
+
+
+def test_the_table_has_an_entry_per_number() -> None:
+    assert list(PARAMETERS) == list(MC_AxisParameter)
+
+
+@pytest.mark.parametrize("number", NUMBERS, ids=str)
+def test_a_number_is_read_and_not_as_a_bool(number: int) -> None:
+    rig = Rig(monitor=MONITOR)
+    assert isinstance(read(rig, number), float)
+    block = MC_ReadBoolParameter(rig.ref)
+    rig.cycle(1, lambda: block(Enable=True, ParameterNumber=number))
+    assert (block.Valid, block.ErrorID) == (False, 0x4B05)
+
+
+@pytest.mark.parametrize("number", SWITCHES, ids=str)
+def test_a_switch_is_read_and_not_as_a_number(number: int) -> None:
+    rig = Rig(monitor=MONITOR)
+    assert read(rig, number) is True
+    block = MC_ReadParameter(rig.ref)
+    rig.cycle(1, lambda: block(Enable=True, ParameterNumber=number))
+    assert (block.Valid, block.ErrorID) == (False, 0x4B05)
+    assert write(rig, number, False) == ErrorId.PARAMETER, "what the description has on stays on"
+
+
+@pytest.mark.parametrize("number", WRITABLE, ids=str)
+def test_a_number_inside_its_range_holds_and_bad_ones_change_nothing(number: int) -> None:
+    rig = Rig(monitor=MONITOR)
+    before = read(rig, number)
+    new = before * 0.75 if before else 0.5
+    if number == P.AxisTargetPositionMonitoringTime:
+        new = before * 2.0
+    assert write(rig, number, new) == 0
+    assert read(rig, number) == new
+    for bad in (math.nan, math.inf, -math.inf, *((-1.0,) if "Limit" not in P(number).name else ())):
+        assert write(rig, number, bad) == ErrorId.PARAMETER
+    assert read(rig, number) == new
+    rig.check()
+
+
+@pytest.mark.parametrize("number", [P.ActualVelocity, P.AxisCycleTime, 0, 77, 999, -1, 10**12])
+def test_what_cannot_be_written_is_refused(number: int) -> None:
+    assert write(Rig(), number, 1.0) == 0x4B05
+
+
+@pytest.mark.parametrize(
+    ("number", "beyond"),
+    [
+        (P.AxisMaxVelocity, 500.1),
+        (P.AxisMaximumAcceleration, 5000.1),
+        (P.AxisMaximumDeceleration, 6000.1),
+        (P.MaxJerk, 1e5 + 1.0),
+        (P.SWLimitPos, 400.1),
+        (P.SWLimitPos, -100.0),
+        (P.SWLimitNeg, -100.1),
+        (P.SWLimitNeg, 400.0),
+        (P.AxisMaxPosLagValue, 5.1),
+        (P.AxisTargetPositionMonitoringTime, 0.001),
+        (P.AxisModuloToleranceWindow, 361.0),
+    ],
+)
+def test_nothing_goes_beyond_the_machine_description(number: int, beyond: float) -> None:
+    rig = Rig(monitor=MONITOR)
+    before = read(rig, number)
+    assert write(rig, number, beyond) == 0x4B06
+    assert read(rig, number) == before
+
+
+def test_a_lower_velocity_holds_for_the_next_command_and_takes_the_default_along() -> None:
+    rig = Rig()
+    assert write(rig, P.AxisMaxVelocity, 100.0) == 0
+    move = MC_MoveAbsolute(rig.ref)
+    rig.cycle(1, lambda: move(Execute=True, Position=50.0, Velocity=100.1))
+    assert move.ErrorID == ErrorId.VELOCITY
+    rig.cycle(1, lambda: move(Execute=False))
+    finish(rig.run, rig.ref.axis.move_absolute(50.0))
+    assert max(abs(rig.run.trace["X.set_velocity"])) == pytest.approx(100.0)
+
+
+def test_what_a_motion_was_planned_with_changes_at_rest_only() -> None:
+    rig = Rig()
+    move = MC_MoveAbsolute(rig.ref)
+    rig.cycle(20, lambda: move(Execute=True, Position=100.0, Velocity=100.0))
+    assert write(rig, P.AxisMaxVelocity, 100.0) == ErrorId.GROUP_BUSY
+    assert write(rig, P.SWLimitPos, 90.0) == ErrorId.GROUP_BUSY
+    assert write(rig, P.AxisAcc, 100.0) == 0
+    rig.check()
+
+
+def test_a_software_limit_can_be_added_and_taken_away() -> None:
+    rig = Rig(software_limit_min=None, software_limit_max=None)
+    assert read(rig, P.EnableLimitPos) is False
+    assert write(rig, P.SWLimitPos, 30.0) == 0
+    assert read(rig, P.SWLimitPos) == 30.0
+    move = MC_MoveAbsolute(rig.ref)
+    assert write(rig, P.EnableLimitPos, True) == 0
+    rig.cycle(1, lambda: move(Execute=True, Position=31.0, Velocity=100.0))
+    assert move.ErrorID == ErrorId.TARGET_OUTSIDE_LIMITS
+    assert rig.ref.ReadStatus().op_mode.name == "SoftLimitMaxMonitoring"
+    assert write(rig, P.EnableLimitPos, False) == 0
+    rig.cycle(1, lambda: move(Execute=False))
+    rig.cycle(400, lambda: move(Execute=True))
+    assert move.Done
+
+
+def test_a_monitor_can_be_added_and_holds_at_once() -> None:
+    rig = Rig(drive={"kind": "servo", "position_gain": 20.0})
+    assert write(rig, P.EnablePosLagMonitoring, True) == ErrorId.PARAMETER, "there is no window yet"
+    assert write(rig, P.MaxPositionLag, 0.5) == 0
+    assert write(rig, P.EnablePosLagMonitoring, True) == 0
+    move = MC_MoveAbsolute(rig.ref)
+    rig.cycle(300, lambda: move(Execute=True, Position=100.0, Velocity=200.0))
+    assert (move.Error, move.ErrorID) == (True, ErrorId.LAG)
+
+
+def ticks_of_a_move(window: float | None) -> int:
+    """Return how long a move takes until it is done, with a target window that is added."""
+    rig = Rig(drive={"kind": "servo", "position_gain": 20.0})
+    if window is not None:
+        assert write(rig, P.AxisTargetPositionWindow, window) == 0
+        assert write(rig, P.AxisEnTargetPositionMonitoring, True) == 0
+    move = MC_MoveAbsolute(rig.ref)
+    return rig.until(lambda: move.Done, lambda: move(Execute=True, Position=50.0, Velocity=200.0))
+
+
+def test_a_target_window_that_is_added_makes_done_wait() -> None:
+    assert ticks_of_a_move(0.05) > ticks_of_a_move(None) + 50
+
+
+def test_reading_once_and_in_every_call() -> None:
+    rig = Rig()
+    once, cyclic = MC_ReadParameter(rig.ref), MC_ReadParameter(rig.ref)
+    move = MC_MoveAbsolute(rig.ref)
+
+    def calls() -> None:
+        once(Enable=True, ParameterNumber=P.CommandedPosition)
+        cyclic(Enable=True, ParameterNumber=P.CommandedPosition, ReadMode=E_ReadMode.READMODE_CYCLIC)
+        move(Execute=True, Position=50.0, Velocity=200.0)
+
+    rig.cycle(600, calls)
+    assert (once.Value, cyclic.Value) == (0.0, 50.0)
+    rig.cycle(1, lambda: once(Enable=False))
+    assert (once.Valid, once.Value) == (False, 0.0)
+    rig.cycle(1, lambda: once(Enable=True))
+    assert once.Value == 50.0
+    rig.cycle(1, lambda: cyclic(ReadMode=3))
+    assert (cyclic.Valid, cyclic.ErrorID) == (False, ErrorId.PARAMETER)

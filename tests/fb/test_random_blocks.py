@@ -1,0 +1,18 @@
+"""Whatever blocks are called with: the rules of PLCopen hold, and so does everything that `verify` judges."""
+
+import pytest
+
+from motionlayer.verify import assert_valid
+
+from .life import live
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_random_blocks_keep_the_rules(seed: int) -> None:
+    assert_valid(live(seed, 1500).trace)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(100, 110))
+def test_random_blocks_keep_the_rules_for_long(seed: int) -> None:
+    assert_valid(live(seed, 10_000).trace)
