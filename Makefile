@@ -21,7 +21,7 @@ check: $(READY)
 reference: $(READY)
 	$(BIN)/python scripts/reference.py
 
-# make campaign NAME=planning|life|mutation [COUNT=1e6] [SEED=1] [CASE=1234] [FRESH=1]
+# make campaign NAME=planning|life|blocks|mutation [COUNT=1e6] [SEED=1] [CASE=1234] [FRESH=1]
 campaign: $(READY)
 	$(BIN)/python scripts/campaign.py --name "$(NAME)" $(if $(COUNT),--count $(COUNT)) $(if $(SEED),--seed $(SEED)) \
 		$(if $(CASE),--case $(CASE)) $(if $(FRESH),--fresh)

@@ -15,8 +15,10 @@ LIMITS: Final = {
     "software_limit_max": 800.0,
 }
 SERVO: Final = {"drive": {"kind": "servo", "position_gain": 50.0, "ready_delay": 0.008}}
-SWITCH: Final = {"home": {"mode": "switch", "switch": -15.0, "velocity": 80.0}}
+SWITCH: Final = {"home": {"mode": "switch", "switch": -15.0, "velocity": 80.0, "position": 20.0}}
 ON: Final = {"Enable": True, "Enable_Positive": True, "Enable_Negative": True}
+
+SLOWLY_OFF: Final = fb.ST_HomingOptions(SyncVelocity=20.0, ReferenceMode=fb.E_EncoderReferenceMode.PLCCAM)
 
 SET_V: Final = ("SetVelo", "velocity")
 SET_P: Final = ("SetPos", "position")
@@ -36,6 +38,7 @@ class Scenario:
         axis: more keys of the axis.
         fault: (ms, kind) of what happens to the drive.
         powered: the axis is ready at the beginning.
+        persistent: the machine file names a file for persistent parameters.
     """
 
     text: str
@@ -47,6 +50,7 @@ class Scenario:
     axis: dict[str, Any] = field(default_factory=dict)
     fault: tuple[int, str] | None = None
     powered: bool = True
+    persistent: bool = False
 
 
 def go(**inputs: Any) -> dict[str, Any]:  # noqa: ANN401 - inputs of any type
@@ -200,10 +204,11 @@ SCENARIOS: Final[dict[str, Scenario]] = {
         curves=(SET_P, SET_V),
     ),
     "MC_Home": Scenario(
-        "To the switch at -15, braking behind its edge; the position there is then counted from the edge.",
+        "To the cam at -15, to rest on it, and slowly off it again: its falling edge is the reference, from which the "
+        "position behind it is counted.",
         {"home": fb.MC_Home},
-        ((10, "home", go()), (330, "home", END)),
-        400,
+        ((10, "home", go(Options=SLOWLY_OFF)), (560, "home", END)),
+        600,
         curves=(SET_V, ("HomingState", "HomingState"), SET_P),
         axis=SWITCH,
     ),
@@ -308,6 +313,34 @@ SCENARIOS: Final[dict[str, Scenario]] = {
         ),
         50,
         curves=(),
+    ),
+    "MC_WriteParameterPersistent": Scenario(
+        "`Done` with the next call: the value holds, and is in the file. The second one, beyond the maximum of the "
+        "machine file, is refused, and the file stays as it is.",
+        {"write": fb.MC_WriteParameterPersistent},
+        (
+            (5, "write", go(ParameterNumber=P.AxisMaxVelocity, Value=200.0)),
+            (15, "write", END),
+            (25, "write", go(Value=600.0)),
+            (35, "write", END),
+        ),
+        50,
+        curves=(),
+        persistent=True,
+    ),
+    "MC_WriteBoolParameterPersistent": Scenario(
+        "The position lag stays watched, and the file says so from now on. A parameter of the other kind is refused.",
+        {"write": fb.MC_WriteBoolParameterPersistent},
+        (
+            (5, "write", go(ParameterNumber=P.EnablePosLagMonitoring, Value=True)),
+            (15, "write", END),
+            (25, "write", go(ParameterNumber=P.MaxPositionLag)),
+            (35, "write", END),
+        ),
+        50,
+        curves=(),
+        axis={"monitor": {"lag": 5.0}},
+        persistent=True,
     ),
     "MC_OverrideFilter": Scenario(
         "A knob is turned: the filtered value follows in steps, 100 % passes at once.",

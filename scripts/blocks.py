@@ -8,6 +8,7 @@ import enum
 import inspect
 import re
 import sys
+import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import fields, is_dataclass
 from pathlib import Path
@@ -20,6 +21,7 @@ from _timing import Curve, Lane, diagram
 
 from motionlayer import Machine, Simulation, fb
 from motionlayer.drive import Fault
+from motionlayer.fb._inputs import NAMES
 
 DOCS: Final = Path(__file__).resolve().parent.parent / "docs" / "blocks"
 NOTE: Final = "<!-- Written by scripts/blocks.py from the code and a run; do not edit. -->"
@@ -71,8 +73,15 @@ def _same(path: Path, text: str) -> bool:
 
 def picture(title: str, scenario: Scenario) -> str:
     """Run a scenario and draw what its blocks showed."""
+    with tempfile.TemporaryDirectory() as folder:
+        return _drawn(title, scenario, str(Path(folder) / "kept.toml"))
+
+
+def _drawn(title: str, scenario: Scenario, kept: str) -> str:
     axis = LIMITS | scenario.axis
-    run = Simulation(Machine.from_dict({"format": 1, "name": "scenario", "axis": {"X": axis}}), trace=None)
+    table = {"format": 1, "name": "scenario", "axis": {"X": axis}}
+    table |= {"persistent_file": kept} if scenario.persistent else {}
+    run = Simulation(Machine.from_dict(table), trace=None)
     ref, made = run.axis_refs["X"], {}
     for name, block in scenario.blocks.items():
         made[name] = block(run if block is fb.MC_OverrideFilter else ref)  # type: ignore[call-arg]
@@ -212,7 +221,7 @@ def _default(default: object) -> str:
 
 
 def _type(name: str, default: object) -> Iterator[str]:
-    """Yield members of an enumeration, or fields of a structure."""
+    """Yield members of an enumeration, or fields of a structure and then those of its enumerations."""
     if isinstance(default, enum.IntEnum):
         yield from ["", f"## {name}", "", "| number | name |", "|---|---|"]
         yield from (f"| {int(one)} | {one.name} |" for one in type(default))
@@ -222,6 +231,10 @@ def _type(name: str, default: object) -> Iterator[str]:
         yield from (
             f"| `{one.name}` | {_default(one.default)} | {texts[one.name].rstrip('.')} |" for one in fields(default)
         )
+        members = {NAMES.get(type(one.default), type(one.default).__name__): one.default for one in fields(default)}
+        for inner, member in members.items():
+            if isinstance(member, enum.IntEnum):
+                yield from _type(inner, member)
 
 
 def _outputs(block: fb.Block) -> dict[str, str]:

@@ -19,6 +19,14 @@ async def main(run: Simulation) -> None:
     print("there", axis.set_position)
 
 
+async def careless(run: Simulation) -> None:
+    axis = run.axes["X"]
+    await axis.enable()
+    axis.move_velocity(20.0)
+    run.sleep(1.0)  # nobody awaits it
+    await run.sleep(0.2)
+
+
 async def noisy(run: Simulation) -> None:
     for tick in range(7):
         run.events.add(Event(tick, Level.WARNING, Kind.MESSAGE, "X", f"message {tick}"))

@@ -15,6 +15,13 @@ from motionlayer.cli._main import _Group
 from motionlayer.record import Trace
 from tests.cli.support import MACHINE, SOURCE, call, program, python, recorded
 
+CHATTY = """\
+async def main(run):
+    while True:
+        print("line", run.tick, "x" * 200)
+        await run.sleep(0.001)
+"""
+
 
 def test_a_fault_in_a_step_has_its_own_code(machine: Path) -> None:
     done = call("run", machine, *program("breaking_the_cycle"), "--trace", "run.trace")
@@ -39,21 +46,21 @@ def test_what_no_command_expects_has_the_same_code() -> None:
 @pytest.mark.parametrize("option", ["--trace", "--plot"])
 def test_no_folder_to_write_to(machine: Path, option: str) -> None:
     done = call("run", machine, "--time", 1, option, "no/folder.html")
-    assert done.exit_code == ExitCode.TRACE
+    assert done.exit_code == ExitCode.OUTPUT
     assert done.stderr == "Error: no/folder.html cannot be written: there is no folder no\n"
 
 
 def test_a_folder_instead_of_a_file(machine: Path) -> None:
     Path("run.trace").mkdir()
     done = call("run", machine, "--time", 1, "--trace", "run.trace")
-    assert done.exit_code == ExitCode.TRACE
+    assert done.exit_code == ExitCode.OUTPUT
     assert done.stderr == "Error: run.trace cannot be written: it is a folder\n"
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
 def test_a_full_disk(machine: Path) -> None:
     done = call("run", machine, "--time", 1, "--trace", "/dev/full")
-    assert done.exit_code == ExitCode.TRACE
+    assert done.exit_code == ExitCode.OUTPUT
     assert "/dev/full: the trace cannot be written: No space left on device" in done.stderr
 
 
@@ -72,14 +79,14 @@ def test_results_on_a_full_disk(machine: Path, name: str) -> None:
             timeout=120,
         )
     assert done.stderr == "Error: stdout cannot be written: No space left on device; redirect it elsewhere\n"
-    assert done.returncode == ExitCode.TRACE
+    assert done.returncode == ExitCode.OUTPUT
 
 
 def test_a_trace_that_another_run_writes_stays_as_it_is(machine: Path) -> None:
     with Simulation(Machine.load(machine), trace="run.trace") as run:
         run.step(3)
         done = call("run", machine, "--time", 1, "--trace", "run.trace")
-        assert done.exit_code == ExitCode.TRACE
+        assert done.exit_code == ExitCode.OUTPUT
         assert done.stderr == (
             "Error: run.trace: another run still writes this trace; wait for its end or close() it, "
             "or name another file with --trace\n"
@@ -97,7 +104,7 @@ def test_a_disk_that_is_full_in_the_middle(machine: Path) -> None:
     options = (*program("shuttle"), "--time", "6", "--trace", "run.trace")
     plain = {"MOTIONLAYER_KERNELS": "plain", "PYTHONDONTWRITEBYTECODE": "1"}  # nothing else is written
     done = python("-c", limited, "run", str(machine), *options, **plain)
-    assert done.returncode == ExitCode.TRACE, done
+    assert done.returncode == ExitCode.OUTPUT, done
     (error,) = done.stderr.splitlines()
     assert error.startswith("Error: run.trace: the trace cannot be written: ")
     assert "hash" not in done.stdout
@@ -115,7 +122,7 @@ def test_what_is_no_trace(machine: Path, command: str) -> None:
         (".", "Is a directory"),
     ]:
         done = call(command, file, *(["-o", "page.html"] if command == "plot" else []))
-        assert done.exit_code == ExitCode.TRACE
+        assert done.exit_code == ExitCode.OUTPUT
         assert done.stdout == ""
         assert done.stderr.startswith("Error: ")
         assert said in done.stderr
@@ -135,7 +142,7 @@ def test_a_trace_that_cannot_be_judged(machine: Path) -> None:
     machine.write_text(MACHINE + '[trace]\nsignals = ["X.state"]\n', encoding="utf-8")
     call("run", machine, "--time", 0.1, "--trace", "run.trace")
     done = call("verify", "run.trace")
-    assert (done.exit_code, done.stdout.split(":")[0]) == (ExitCode.TRACE, "REFUSED")
+    assert (done.exit_code, done.stdout.split(":")[0]) == (ExitCode.OUTPUT, "REFUSED")
 
 
 def _halves(path: str) -> tuple[bytes, bytes]:
@@ -147,7 +154,7 @@ def test_an_incomplete_trace_is_judged_but_not_passed_over(machine: Path) -> Non
     call("run", machine, *program("shuttle"), "--time", 5, "--trace", "run.trace")
     Path("cut.trace").write_bytes(_halves("run.trace")[0])
     done = call("verify", "cut.trace")
-    assert (done.exit_code, done.stdout.split(":")[0]) == (ExitCode.TRACE, "INCOMPLETE")
+    assert (done.exit_code, done.stdout.split(":")[0]) == (ExitCode.OUTPUT, "INCOMPLETE")
     assert "its writer was cut short; judged up to tick" in done.stdout
     assert done.stderr == "Error: cut.trace is incomplete; --partial accepts the part that was judged\n"
     done = call("verify", "cut.trace", "--partial")
@@ -169,7 +176,7 @@ def test_a_damaged_trace_is_refused(machine: Path, kind: str, option: list[str])
     }
     Path("damaged.trace").write_bytes(damaged[kind])
     done = call("verify", "damaged.trace", *option)
-    assert (done.exit_code, done.stdout.split(":")[0]) == (ExitCode.TRACE, "REFUSED")
+    assert (done.exit_code, done.stdout.split(":")[0]) == (ExitCode.OUTPUT, "REFUSED")
     assert "cannot judge: the file is damaged: " in done.stdout
     done = call("plot", "damaged.trace")
     assert done.exit_code == ExitCode.OK
@@ -193,3 +200,26 @@ def test_a_run_of_which_there_is_nothing_to_draw(machine: Path) -> None:
 
 def test_bench_hands_over_its_exit_code() -> None:
     assert call("bench", "no_such_group").exit_code == ExitCode.USAGE
+
+
+@pytest.mark.parametrize("buffering", ["", "1"])
+def test_a_reader_of_stdout_that_goes_away(machine: Path, buffering: str) -> None:
+    """As `motionlayer run … | head -1` does; with a buffer the pipe breaks some lines later."""
+    Path("chatty.py").write_text(CHATTY, encoding="utf-8")
+    with subprocess.Popen(
+        [sys.executable, "-m", "motionlayer", "run", str(machine), "--program", "chatty.py", "--time", "5"],
+        env={**os.environ, "PYTHONPATH": str(SOURCE), "PYTHONUNBUFFERED": buffering},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        assert process.stdout.readline().startswith("line 0")
+        process.stdout.close()
+        said = process.stderr.read()
+        assert process.wait(120.0) == ExitCode.FAILED
+    assert said == (
+        "Error: program chatty: nobody reads what it writes any more, as behind `| head` "
+        f"({Path('chatty.py').resolve()}:3 in main)\n"
+    )

@@ -64,5 +64,5 @@ def test_where_nothing_can_be_written(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     (tmp_path / "cell").symlink_to(tmp_path / "file")
     done = call("new", "cell", "--folder", tmp_path)
-    assert done.exit_code == ExitCode.TRACE
+    assert done.exit_code == ExitCode.OUTPUT
     assert "cannot be written" in done.stderr

@@ -190,6 +190,10 @@ def test_a_changed_program_is_named_and_differs() -> None:
     assert "run.trace: the replay is another run: tick 2 (0.002 s): the trace has " in done.stderr
     assert "move_absolute(position=200.0)' (accepted), the replay the verbose X: 'move_absolute(" in done.stderr
     assert re.search(r"; hash [0-9a-f]{32} in the trace, [0-9a-f]{32} in the replay\n$", done.stderr)
+    Path("programs.py").write_text(text.replace("axis.move_absolute(200.0)", "run.sleep(1.0)"), encoding="utf-8")
+    done = call("replay", "run.trace")
+    assert done.exit_code == ExitCode.FAILED
+    assert "a script may have" not in done.stderr  # the file explains it
     Path("programs.py").write_text(text + "\n# the same but for this line\n", encoding="utf-8")
     done = call("replay", "run.trace")
     assert done.exit_code == ExitCode.OK
@@ -204,7 +208,7 @@ def test_the_program_is_looked_for_beside_the_trace_and_can_be_given() -> None:
     assert call("replay", "moved/run.trace").exit_code == ExitCode.OK
     Path("moved", "programs.py").rename("renamed.py")
     done = call("replay", "moved/run.trace")
-    assert done.exit_code == ExitCode.TRACE
+    assert done.exit_code == ExitCode.OUTPUT
     assert "program shuttle: no file " in done.stderr
     assert "give it with --program FILE" in done.stderr
     done = call("replay", "moved/run.trace", "--program", "renamed.py:shuttle")
@@ -232,7 +236,7 @@ def test_the_machine_is_that_of_the_trace() -> None:
 def test_files_that_are_no_trace() -> None:
     for text, said in (("none.trace", "cannot be read"), ("machine.toml", "not a trace of motionlayer")):
         done = call("replay", text)
-        assert done.exit_code == ExitCode.TRACE
+        assert done.exit_code == ExitCode.OUTPUT
         assert said in done.stderr
 
 
@@ -254,6 +258,6 @@ def test_another_program_for_one_that_does_not_exist() -> None:
         Path(f"{name}.py").write_text("async def main(run):\n    await run.sleep(0.01)\n", encoding="utf-8")
     simulated()
     done = call("replay", "run.trace", "--program", "programs.py")
-    assert done.exit_code == ExitCode.TRACE
+    assert done.exit_code == ExitCode.OUTPUT
     assert "programs.py stands in for no program of the trace; it has a (a.py), b (b.py)" in done.stderr
     assert call("replay", "run.trace", "--program", "b.py").exit_code == ExitCode.OK

@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from motionlayer.cli import ExitCode
-from tests.cli.support import MACHINE, PROGRAMS, call, command, program, recorded
+from tests.cli.support import MACHINE, PROGRAMS, call, command, line_of, program, recorded
 
 
 def test_run_verify_and_plot(machine: Path) -> None:
@@ -108,3 +108,15 @@ def test_the_first_run_says_that_it_compiles_and_the_next_does_not(machine: Path
     assert (first.returncode, second.returncode) == (0, 0)
     assert first.stderr == "compiling the kernels, once for this version; the next run starts at once\n"
     assert second.stderr == ""
+
+
+def test_an_axis_that_goes_on_and_a_wait_without_await_are_in_the_summary(machine: Path) -> None:
+    done = call("run", machine, *program("careless"))
+    assert done.exit_code == ExitCode.OK
+    (axes,) = [line for line in done.stdout.splitlines() if line.startswith("axes")]
+    assert axes.endswith("mm, continuous motion, still moves at 20 mm/s")
+    line = line_of("run.sleep(1.0)  # nobody awaits it")
+    place = f"programs.py:{line} in careless"
+    assert f"program careless: sleep(1) at {place} is not awaited, so it does nothing" in done.stdout
+    assert "X: still moves: X.move_velocity goes on, and the last program has ended" in done.stdout
+    assert "0 errors, 2 warnings:" in done.stdout

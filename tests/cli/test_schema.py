@@ -35,5 +35,5 @@ def test_where_it_cannot_be_written(tmp_path: Path, name: str) -> None:
     if name == ".":
         path.mkdir()
     done = call("schema", "--out", path)
-    assert done.exit_code == ExitCode.TRACE
+    assert done.exit_code == ExitCode.OUTPUT
     assert f"{path} cannot be written" in done.stderr

@@ -5,11 +5,10 @@ from collections.abc import Callable
 from typing import Any
 
 from motionlayer import Machine, Simulation
+from motionlayer.bench.campaign._blocks import observer_of
 from motionlayer.fb import AXIS_REF, MC_Power
 from motionlayer.verify import assert_valid
 from tests.machines import LINEAR
-
-from .life import observer_of
 
 
 class Rig:

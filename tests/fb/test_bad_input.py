@@ -8,12 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from motionlayer import fb
+from motionlayer.bench.campaign._blocks import HUGE
+from motionlayer.bench.campaign._observer import Observer
 from motionlayer.command import ERRORS, ErrorId
 from motionlayer.fb._block import ExecuteBlock
 from motionlayer.nc import TRANSITIONS
 
-from .life import HUGE
-from .observer import Observer
 from .rig import Rig
 
 NAMES: Final = [name for name in fb.__all__ if name.startswith("MC_")]
@@ -88,8 +88,6 @@ def test_random_bad_inputs_end_in_a_known_way(name: str, data: st.DataObject) ->
         elif entry.type.startswith(("MC_", "E_")) and data.draw(st.booleans()):
             inputs[one] = data.draw(st.integers(-2, 200))
     rig = Rig()
-    if any(abs(value) > 1e12 for value in inputs.values()) and name in ("MC_Home", "MC_SetPosition"):
-        return  # a coordinate beyond all resolution
     block = started(rig, name, **inputs)
     assert block.Error or block.Busy or block.Done
     assert rig.ref.axis.state in TRANSITIONS
@@ -126,3 +124,26 @@ def test_two_blocks_that_fight_for_an_axis_both_come_to_an_end(first: str, secon
 
     rig.cycle(400, calls)
     rig.check()
+
+
+@pytest.mark.parametrize("name", [name for name, block in EXECUTE.items() if "Options" in block.INPUTS])
+def test_another_object_for_a_structure_raises_and_says_which(name: str) -> None:
+    for other in (None, {"ClearPositionLag": True}, fb.ST_AxisStatus()):
+        with pytest.raises(TypeError, match=rf"{name}: Options is .*; it must be of ST_"):
+            started(Rig(), name, Options=other)
+
+
+@pytest.mark.parametrize(("name", "one"), [("MC_SetOverride", "VelFactor"), ("MC_Power", "Override")])
+@pytest.mark.parametrize("bad", ["1", None, True])
+def test_an_override_that_is_no_number_raises_and_says_so(name: str, one: str, bad: object) -> None:
+    block = BLOCKS[name](Rig().ref)
+    block(Enable=True, **{one: 0.5})
+    with pytest.raises(TypeError, match=f"{name}: {one} is {bad!r}; it must be a number"):
+        block(**{one: bad})
+
+
+def test_a_target_beyond_what_can_be_planned_is_refused() -> None:
+    rig = Rig(software_limit_min=None, software_limit_max=None)
+    move = fb.MC_MoveAbsolute(rig.ref)
+    rig.cycle(1, lambda: move(Execute=True, Position=1e300, Velocity=10.0))
+    assert move.ErrorID == ErrorId.SET_POSITION_RANGE

@@ -6,12 +6,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from motionlayer.bench.campaign._observer import Observer
 from motionlayer.command import Command, ErrorId, MotionError
 from motionlayer.fb import MC_Jog, MC_MoveAbsolute
 from motionlayer.fb._block import NEXT, ExecuteBlock, Phase
 from motionlayer.fb._inputs import lreal
-
-from .observer import Observer
 
 
 class Issuing(ExecuteBlock):

@@ -122,6 +122,27 @@ def test_an_endless_move_stays_busy_until_another_one_takes_over() -> None:
     rig.check()
 
 
+@pytest.mark.parametrize("continuous", [False, True])
+def test_an_axis_that_override_0_holds_is_not_in_velocity(continuous: bool) -> None:
+    """At 0 % the setpoint rests: the commanded velocity is not reached, although 0 is its share."""
+    rig = Rig()
+    if continuous:
+        move = begun(rig, MC_MoveContinuousAbsolute(rig.ref), Position=20.0, EndVelocity=60.0, Velocity=100.0)
+        goal = "InEndVelocity"
+    else:
+        move = begun(rig, MC_MoveVelocity(rig.ref), Velocity=100.0)
+        goal = "InVelocity"
+    rig.until(lambda: bool(getattr(move, goal)))
+    rig.power[0].Override = 0.0
+    rig.cycle(100, rig.power[0])
+    assert rig.ref.axis.set_velocity == 0.0
+    assert (move.Busy, move.Active, getattr(move, goal)) == (True, True, False)
+    rig.power[0].Override = 100.0
+    rig.cycle(1, rig.power[0])
+    rig.until(lambda: bool(getattr(move, goal)))
+    rig.check()
+
+
 def test_a_changed_override_takes_in_velocity_back_until_it_is_reached_again() -> None:
     rig = Rig()
     move = begun(rig, MC_MoveVelocity(rig.ref), Velocity=100.0)

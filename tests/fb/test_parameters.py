@@ -3,8 +3,10 @@
 import math
 from typing import Any
 
+import numpy as np
 import pytest
 
+from motionlayer.bench.campaign._observer import Observer
 from motionlayer.command import ErrorId
 from motionlayer.fb import (
     PARAMETERS,
@@ -16,9 +18,9 @@ from motionlayer.fb import (
     MC_WriteBoolParameter,
     MC_WriteParameter,
 )
+from motionlayer.verify import verify
 from tests.machines import finish
 
-from .observer import Observer
 from .rig import Rig
 
 P = MC_AxisParameter
@@ -27,7 +29,7 @@ SWITCHES = [name for name, entry in PARAMETERS.items() if entry.kind is bool]
 WRITABLE = [name for name in NUMBERS if PARAMETERS[name].write is not None]
 MONITOR = {
     "lag": 5.0, "lag_time": 0.02, "range_window": 5.0, "target_window": 2.0, "target_time": 0.002,
-    "target_timeout": 1.0,
+    "target_timeout": 1.0, "motion_window": 1e-6, "motion_time": 0.2,
 }  # fmt: skip
 
 
@@ -74,7 +76,7 @@ def test_a_number_inside_its_range_holds_and_bad_ones_change_nothing(number: int
     rig = Rig(monitor=MONITOR)
     before = read(rig, number)
     new = before * 0.75 if before else 0.5
-    if number == P.AxisTargetPositionMonitoringTime:
+    if number in (P.AxisTargetPositionMonitoringTime, P.AxisMotionMonitoringWindow):
         new = before * 2.0
     assert write(rig, number, new) == 0
     assert read(rig, number) == new
@@ -103,6 +105,9 @@ def test_what_cannot_be_written_is_refused(number: int) -> None:
         (P.AxisMaxPosLagValue, 5.1),
         (P.AxisTargetPositionMonitoringTime, 0.001),
         (P.AxisModuloToleranceWindow, 361.0),
+        (P.AxisMotionMonitoringWindow, 5e-7),
+        (P.AxisMotionMonitoringTime, 0.21),
+        (P.AxisCalibrationVelocityForward, 500.1),
     ],
 )
 def test_nothing_goes_beyond_the_machine_description(number: int, beyond: float) -> None:
@@ -142,7 +147,8 @@ def test_a_software_limit_can_be_added_and_taken_away() -> None:
     assert write(rig, P.EnableLimitPos, True) == 0
     rig.cycle(1, lambda: move(Execute=True, Position=31.0, Velocity=100.0))
     assert move.ErrorID == ErrorId.TARGET_OUTSIDE_LIMITS
-    assert rig.ref.ReadStatus().op_mode.name == "SoftLimitMaxMonitoring"
+    status = rig.ref.ReadStatus()
+    assert (status.SoftLimitMinMonitoring, status.SoftLimitMaxMonitoring) == (False, True)
     assert write(rig, P.EnableLimitPos, False) == 0
     rig.cycle(1, lambda: move(Execute=False))
     rig.cycle(400, lambda: move(Execute=True))
@@ -191,3 +197,29 @@ def test_reading_once_and_in_every_call() -> None:
     assert once.Value == 50.0
     rig.cycle(1, lambda: cyclic(ReadMode=3))
     assert (cyclic.Valid, cyclic.ErrorID) == (False, ErrorId.PARAMETER)
+
+
+def test_verify_takes_written_limits_and_no_others() -> None:
+    """In a trace with a written limit: the limit may change in that tick alone, inside the described one, and holds."""
+    rig = Rig()
+    assert write(rig, P.SWLimitPos, 60.0) == 0
+    rig.cycle(5)
+    finish(rig.run, rig.ref.axis.move_absolute(50.0))
+    rig.run.step(2)
+    trace = rig.run.trace
+    limit = trace["X.software_limit_max"]
+    written = int(np.argmax(limit < 400.0))
+    assert verify(trace).ok
+
+    def found(values: Any, signal: str = "software_limit_max") -> set[str]:
+        return {one.rule for one in verify(trace.replace({f"X.{signal}": values})).findings}
+
+    early, late, beyond = limit.copy(), limit.copy(), limit.copy()
+    early[written - 1] = 60.0
+    late[written + 3 :] = 70.0
+    beyond[written:] = 401.0
+    assert found(early) == found(late) == {"limit signal"}
+    assert "limit signal" in found(beyond)
+    lower = limit.copy()
+    lower[written:] = 40.0
+    assert "software limit" in found(lower), "positions beyond it are judged by the limit that the trace shows"

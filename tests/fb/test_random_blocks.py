@@ -2,17 +2,16 @@
 
 import pytest
 
+from motionlayer.bench.campaign._blocks import live
 from motionlayer.verify import assert_valid
-
-from .life import live
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_random_blocks_keep_the_rules(seed: int) -> None:
-    assert_valid(live(seed, 1500).trace)
+    assert_valid(live(seed, 0, 3400).trace)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(100, 110))
 def test_random_blocks_keep_the_rules_for_long(seed: int) -> None:
-    assert_valid(live(seed, 10_000).trace)
+    assert_valid(live(seed, 0, 10_000).trace)

@@ -2,14 +2,24 @@
 
 import functools
 import math
-from typing import Any, Final
+from typing import Any, Final, cast
 
 import pytest
 
 from motionlayer import AxisState
 from motionlayer.command import ErrorId
-from motionlayer.fb import MC_Home, MC_MoveAbsolute, MC_SetPosition, ST_SetPositionOptions
-from motionlayer.nc import Calibration
+from motionlayer.fb import (
+    E_EncoderReferenceMode,
+    MC_AxisParameter,
+    MC_Home,
+    MC_MoveAbsolute,
+    MC_SetPosition,
+    MC_WriteParameter,
+    ST_HomingOptions,
+    ST_SetPositionOptions,
+)
+from motionlayer.nc import Calibration, ControlDWord, Direction
+from motionlayer.store import Q
 from tests.machines import SWITCH
 
 from .rig import Rig
@@ -51,13 +61,146 @@ def test_direct_homing_takes_the_place_and_forcing_only_says_so() -> None:
         ({"HomingMode": 7}, ErrorId.MODE_INVALID),
         ({"Position": math.nan}, ErrorId.TARGET_NOT_FINITE),
         ({"Position": -math.inf}, ErrorId.TARGET_NOT_FINITE),
+        ({"Position": 1e300}, ErrorId.SET_POSITION_RANGE),
+        ({"Position": -1e300, "HomingMode": Calibration.DIRECT}, ErrorId.SET_POSITION_RANGE),
+        ({"Options": ST_HomingOptions(SearchVelocity=math.nan)}, ErrorId.VELOCITY),
+        ({"Options": ST_HomingOptions(SearchVelocity=-1.0)}, ErrorId.VELOCITY),
+        ({"Options": ST_HomingOptions(SyncVelocity=501.0)}, ErrorId.VELOCITY),
+        ({"Options": ST_HomingOptions(SyncVelocity=5e-324)}, ErrorId.VELOCITY),
+        ({"Options": ST_HomingOptions(SearchDirection=Direction.SHORTEST_WAY)}, ErrorId.MODE_INVALID),
+        ({"Options": ST_HomingOptions(SyncDirection=cast("Direction", 9))}, ErrorId.MODE_INVALID),
+        ({"Options": ST_HomingOptions(ReferenceMode=E_EncoderReferenceMode.SOFTWARESYNC)}, ErrorId.REFERENCE_MODE),
     ],
 )
-def test_a_bad_homing_is_refused(inputs: dict[str, float], error: ErrorId) -> None:
+def test_a_bad_homing_is_refused(inputs: dict[str, Any], error: ErrorId) -> None:
     rig = Rig(home=SWITCH)
     home = MC_Home(rig.ref)
     rig.cycle(1, lambda: home(Execute=True, **inputs))
-    assert (home.Error, home.ErrorID) == (True, error)
+    assert (home.Error, home.ErrorID, rig.ref.axis.state) == (True, error, AxisState.STANDSTILL)
+
+
+CAM: Final = {"mode": "switch", "switch": -50.0, "velocity": 40.0, "position": 7.0}
+
+
+def test_options_say_how_to_home_and_hold_for_this_homing_alone() -> None:
+    """The switch of the machine is taken as a cam: searched fast, left slowly, its edge is the reference."""
+    rig = Rig(home=CAM)
+    home, axis = MC_Home(rig.ref), rig.ref.axis
+    options = ST_HomingOptions(SearchVelocity=80.0, SyncVelocity=5.0, ReferenceMode=E_EncoderReferenceMode.PLCCAM)
+    rig.watch(home)
+    home.Options, home.Execute, velocities = options, True, []
+    rig.until(lambda: home.Done, lambda: velocities.append(axis.set_velocity), ticks=8000)
+    assert (min(velocities), max(velocities)) == pytest.approx((-80.0, 5.0))
+    assert axis.homed
+    assert axis.config.home.velocity == 40.0
+    place = axis.set_position - 7.0 - 50.0  # of the drive
+    assert -50.0 < place < -49.0
+    rig.check()
+
+
+def test_a_search_the_other_way_round_turns_the_way_off_the_cam_with_it() -> None:
+    rig = Rig(home=CAM | {"mode": "cam", "direction": "positive", "switch": 30.0})
+    home = MC_Home(rig.ref)
+    rig.watch(home)
+    home.Options, home.Execute = ST_HomingOptions(SearchDirection=Direction.NEGATIVE), True
+    signal, velocities = home, []
+
+    def place() -> None:
+        """A cam of the program at -20 and below."""
+        velocities.append(rig.ref.axis.set_velocity)
+        signal.bCalibrationCam = rig.ref.axis.actual_position <= -20.0
+
+    rig.until(lambda: home.Done, place)
+    assert min(velocities) == -40.0
+    assert max(velocities) == 40.0
+    assert rig.ref.axis.homed
+    rig.check()
+
+
+def test_a_cam_that_the_program_reads_is_the_reference_where_it_falls() -> None:
+    rig = Rig(home={"mode": "direct", "velocity": 40.0, "sync_velocity": 5.0, "position": 7.0})
+    home, axis, falling = MC_Home(rig.ref), rig.ref.axis, []
+    home.Options.ReferenceMode = E_EncoderReferenceMode.PLCCAM
+    rig.watch(home)
+    home.Execute = True
+
+    def cam() -> None:
+        on = axis.actual_position <= -30.0
+        if home.bCalibrationCam and not on:
+            falling.append(axis.actual_position)
+        home.bCalibrationCam = on
+
+    phases: list[int] = []
+    rig.until(lambda: home.Done, cam, lambda: phases.append(rig.ref.NcToPlc.HomingState))
+    assert list(dict.fromkeys(phases)) == [0, 2, 3, 4, 6]
+    assert (axis.homed, len(falling)) == (True, 1)
+    bits = ControlDWord.Enable | ControlDWord.FeedEnablePlus | ControlDWord.FeedEnableMinus
+    assert rig.ref.PlcToNc.ControlDWord == bits
+    shift = float(axis._table[Q.SHIFT, 0])  # the drive counts on as before
+    assert falling[0] + shift == pytest.approx(7.0, abs=1e-12)
+    assert -30.0 < falling[0] <= -30.0 + 5.0 * 0.001
+    rig.check()
+
+
+def test_an_axis_without_a_cam_drops_the_signal_when_it_is_asked_to_leave() -> None:
+    rig = Rig(home={"mode": "direct", "velocity": 40.0, "position": 7.0})
+    home = MC_Home(rig.ref)
+    home.Options.ReferenceMode, home.bCalibrationCam = E_EncoderReferenceMode.PLCCAM, True
+    rig.watch(home)
+    home.Execute = True
+
+    def drop() -> None:
+        home.bCalibrationCam = rig.ref.NcToPlc.HomingState < 4
+
+    rig.until(lambda: home.Done, drop)
+    assert rig.ref.axis.homed
+    rig.check()
+
+
+def test_a_written_velocity_of_the_search_is_that_of_the_next_homing() -> None:
+    rig = Rig(home=SWITCH)
+    write, home, axis = MC_WriteParameter(rig.ref), MC_Home(rig.ref), rig.ref.axis
+    number = MC_AxisParameter.AxisCalibrationVelocityForward
+    rig.cycle(2, lambda: write(Execute=True, ParameterNumber=number, Value=25.0))
+    rig.watch(home)
+    home.Execute, velocities = True, []
+    rig.until(lambda: home.Done, lambda: velocities.append(axis.set_velocity))
+    assert min(velocities) == -25.0
+    rig.check()
+
+
+@pytest.mark.parametrize("inputs", [{"Position": 1e300}, {"Position": -1e61}, {"Position": 1e300, "Mode": True}])
+def test_a_position_beyond_what_can_be_planned_is_not_set(inputs: dict[str, Any]) -> None:
+    rig = Rig()
+    block = MC_SetPosition(rig.ref)
+    rig.cycle(1, lambda: block(Execute=True, **inputs))
+    assert (block.ErrorID, rig.ref.axis.set_position) == (ErrorId.SET_POSITION_RANGE, 0.0)
+
+
+def test_shifts_do_not_add_up_beyond_it() -> None:
+    rig = Rig()
+    block = MC_SetPosition(rig.ref)
+    for error in (0, ErrorId.SET_POSITION_RANGE):
+        rig.cycle(2, lambda: block(Execute=True, Position=9e59, Mode=True))
+        assert block.ErrorID == error
+        rig.cycle(1, lambda: block(Execute=False))
+
+
+@pytest.mark.parametrize("one", ["Velocity", "Acceleration", "Deceleration", "Jerk"])
+def test_a_size_that_cannot_be_planned_is_refused_and_says_so(one: str) -> None:
+    """5e-324 is positive, and no profile can be made of it."""
+    rig = Rig()
+    move = MC_MoveAbsolute(rig.ref)
+    inputs = {"Position": 10.0, "Velocity": 10.0} | {one: 5e-324}
+    rig.cycle(1, lambda: move(Execute=True, **inputs))
+    errors = {
+        "Velocity": ErrorId.VELOCITY,
+        "Acceleration": ErrorId.ACCELERATION,
+        "Deceleration": ErrorId.DECELERATION,
+        "Jerk": ErrorId.JERK,
+    }
+    assert move.ErrorID == errors[one]
+    assert any("allowed: 1e-60 <=" in event.text for event in rig.run.trace.events)
 
 
 SHIFTS: Final[tuple[tuple[dict[str, Any], float], ...]] = (

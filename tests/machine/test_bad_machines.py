@@ -28,22 +28,22 @@ BAD = [
         HEAD + AXIS.replace("10.0", "-5.0", 1),
         4,
         "axis.X.max_velocity",
-        "= -5.0: must be greater than 0 (u/s)",
+        "= -5.0: must be greater than 0 (mm/s)",
     ),
     (
         HEAD + AXIS + "velocity = 11\n",
         7,
         "axis.X.velocity",
-        "= 11: must be at most max_velocity = 10.0 (u/s)",
+        "= 11: must be at most max_velocity = 10.0 (mm/s)",
     ),
     (HEAD + AXIS + "acceleration = 11\n", 7, "axis.X.acceleration", "at most max_acceleration = 10.0"),
     (HEAD + AXIS + "deceleration = 11\n", 7, "axis.X.deceleration", "at most max_deceleration = 10.0"),
-    (HEAD + AXIS + "jerk = 11\n", 7, "axis.X.jerk", "at most max_jerk = 10.0 (u/s³)"),
+    (HEAD + AXIS + "jerk = 11\n", 7, "axis.X.jerk", "at most max_jerk = 10.0 (mm/s³)"),
     (
         HEAD + AXIS + "start_position = inf\n",
         7,
         "axis.X.start_position",
-        "= inf: must be a finite number (u)",
+        "= inf: must be a finite number (mm)",
     ),
     (HEAD + AXIS + "start_position = true\n", 7, "axis.X.start_position", "= true: must be a finite number"),
     (HEAD + "base_cycle_ns = 5\n" + AXIS, 3, "base_cycle_ns", "must be from 50_000 to 100_000_000 (ns)"),
@@ -53,7 +53,7 @@ BAD = [
         HEAD + AXIS + "software_limit_min = 5\nsoftware_limit_max = 5\n",
         8,
         "axis.X.software_limit_max",
-        "must be greater than software_limit_min = 5.0 (u)",
+        "must be greater than software_limit_min = 5.0 (mm)",
     ),
     # homing
     (
@@ -74,7 +74,7 @@ BAD = [
     # drives
     (HEAD + AXIS + '[axis.X.drive]\nkind = "servo"\n', 7, "axis.X.drive.position_gain", 'kind = "servo" needs it'),
     (HEAD + AXIS + "[axis.X.drive]\nbacklash = 1\n", 8, "axis.X.drive.backlash", "an ideal drive has no such thing"),
-    (HEAD + AXIS + SERVO + "backlash = -1\n", 10, "axis.X.drive.backlash", "= -1: must be at least 0 (u)"),
+    (HEAD + AXIS + SERVO + "backlash = -1\n", 10, "axis.X.drive.backlash", "= -1: must be at least 0 (mm)"),
     (
         HEAD + AXIS + SERVO + "dead_time = 0.0015\n",
         10,
@@ -263,7 +263,7 @@ def test_the_text_has_one_block_for_each_problem(write: Write) -> None:
     with pytest.raises(MachineError) as caught:
         load_description(path)
     lines = str(caught.value).splitlines()
-    assert lines[0] == f"{path}:7: axis.X.velocity = 0: must be greater than 0 (u/s)"
+    assert lines[0] == f"{path}:7: axis.X.velocity = 0: must be greater than 0 (mm/s)"
     assert lines[1] == f"{path}:8: axis.X.qqqq: unknown key"
     assert lines[2].startswith("    known keys: unit, max_velocity")
     assert max(len(line) for line in lines[2:]) <= 110
@@ -278,7 +278,7 @@ def test_data_without_a_file_gives_the_same_text_without_place() -> None:
     axis = {"max_velocity": -5.0, "max_acceleration": 1.0, "max_jerk": 1.0}
     with pytest.raises(MachineError) as caught:
         check_description({"format": 1, "name": "m", "axis": {"X": axis}})
-    assert str(caught.value) == "axis.X.max_velocity = -5.0: must be greater than 0 (u/s)"
+    assert str(caught.value) == "axis.X.max_velocity = -5.0: must be greater than 0 (mm/s)"
 
 
 def test_a_number_python_will_not_write_is_refused_in_order() -> None:

@@ -20,11 +20,11 @@ MACHINE, MODULE = map(Draft202012Validator, SCHEMAS.values())
 
 RELATION_ONLY = {
     # a value beside another one
-    "axis.X.velocity: = 11: must be at most max_velocity = 10.0 (u/s)",
+    "axis.X.velocity: = 11: must be at most max_velocity = 10.0 (mm/s)",
     "axis.X.acceleration: at most max_acceleration = 10.0",
     "axis.X.deceleration: at most max_deceleration = 10.0",
-    "axis.X.jerk: at most max_jerk = 10.0 (u/s³)",
-    "axis.X.software_limit_max: must be greater than software_limit_min = 5.0 (u)",
+    "axis.X.jerk: at most max_jerk = 10.0 (mm/s³)",
+    "axis.X.software_limit_max: must be greater than software_limit_min = 5.0 (mm)",
     "axis.X.home.velocity: at most max_velocity = 10.0",
     "axis.X.home.switch: missing; must be a finite",
     'axis.X.drive.position_gain: kind = "servo" needs it',
@@ -54,7 +54,7 @@ RELATION_ONLY = {
     "trace.signals[1]: mean X.set_position?",
     'trace.resolution."Y.*": matches no signal',
     # JSON knows neither inf nor the difference between 1e6 and 1000000; `$` of its patterns may stand before a line end
-    "axis.X.start_position: = inf: must be a finite number (u)",
+    "axis.X.start_position: = inf: must be a finite number (mm)",
     "axis.X.home.velocity: = inf: must be a finite number",
     "base_cycle_ns: must be a whole number from 50_000",
     'axis."X\\n": not a name of an axis',

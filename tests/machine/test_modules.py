@@ -154,7 +154,7 @@ IN_THE_MODULE = [
         TWICE,
         AXIS.replace("100.0", "-1.0"),
         [
-            "m.toml:3: axis.X.max_velocity = -1.0: must be greater than 0 (u/s)",
+            "m.toml:3: axis.X.max_velocity = -1.0: must be greater than 0 (mm/s)",
             '    included at cell.toml:3 as "A_"',
             '    included at cell.toml:6 as "B_"',
         ],
@@ -175,6 +175,25 @@ IN_THE_MODULE = [
             'm.toml:7: trace.signals[0] = "X.foo": matches no signal',
             "    signals are <axis>.<signal>, with set_position",
         ],
+    ),
+    (
+        TWICE,
+        AXIS + '[trace]\nsignals = ["X.set_positon"]\n',
+        [
+            'm.toml:7: trace.signals[0] = "X.set_positon": matches no signal; did you mean X.set_position?',
+            '    included at cell.toml:3 as "A_"',
+            '    included at cell.toml:6 as "B_"',
+        ],
+    ),
+    (
+        ONCE,
+        AXIS + '[trace.resolution]\n"X.set_positon" = 0.1\n',
+        ['m.toml:7: trace.resolution."X.set_positon": matches no signal; did you mean X.set_position?'],
+    ),
+    (
+        ONCE,
+        AXIS + 'unit = "°"\nvelocity = 0\n',
+        ["m.toml:7: axis.X.velocity = 0: must be greater than 0 (°/s)"],
     ),
     (ONCE, AXIS + "seed = 3\n", ["m.toml:6: axis.X.seed: unknown key"]),
     (ONCE, "seed = 3\n" + AXIS, ["m.toml:2: seed: not in a module; the machine file says this once for all"]),
@@ -207,7 +226,7 @@ INCLUSIONS = [
     ("module = [3]\n", "cell.toml:3: module[0] = 3: must be"),
     (
         ONCE + '[module.set]\n"axis.X.max_velocity" = -2\n',
-        'cell.toml:7: module[0].set."axis.X.max_velocity" = -2: must be greater than 0 (u/s)',
+        'cell.toml:7: module[0].set."axis.X.max_velocity" = -2: must be greater than 0 (mm/s)',
     ),
     (
         ONCE + '[module.set]\n"axis.X.max_velocty" = 2\n',
@@ -300,7 +319,7 @@ def test_data_without_a_file_includes_modules_from_the_working_directory(
     with pytest.raises(MachineError) as caught:
         Machine.from_dict(data)
     assert str(caught.value).splitlines() == [
-        "m.toml:3: axis.X.max_velocity = 0: must be greater than 0 (u/s)",
+        "m.toml:3: axis.X.max_velocity = 0: must be greater than 0 (mm/s)",
         '    included at module[0] as "A_"',
     ]
     good = {**data["module"][0], "set": {"axis.X.max_velocity": 2.0}}  # type: ignore[index]
@@ -308,7 +327,7 @@ def test_data_without_a_file_includes_modules_from_the_working_directory(
 
 
 def test_every_section_is_of_modules_or_of_the_machine_alone() -> None:
-    alone = {"format", "name", "base_cycle_ns", "seed", "realtime", "log"}
+    alone = {"format", "name", "base_cycle_ns", "seed", "realtime", "log", "persistent_file"}
     assert set(Description.model_fields) <= alone | set(SECTIONS), "say in machine/_names.py what a module may hold"
     assert not alone & (set(SECTIONS) - {"format"})
 

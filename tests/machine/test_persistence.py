@@ -55,11 +55,10 @@ def test_what_is_written_holds_in_the_next_run(tmp_path: Path) -> None:
         assert write(run, P.EnableLimitPos, True) == 0
     assert "[X]\nAxisMaxVelocity = 100.0\nSWLimitPos = 50.0\nEnableLimitPos = true\n" in kept(tmp_path)
     with Simulation(machine(tmp_path)) as run:
-        run.step()
         x = run.axes["X"]
-        assert (x.config.maximum.velocity, x.config.limit_max) == (100.0, 50.0)
         x.enable()
         run.step(2)
+        assert (x.config.maximum.velocity, x.config.limit_max) == (100.0, 50.0)
         assert x.move_absolute(51.0).error is not None
         finish(run, x.move_absolute(40.0))
         run.step(2)

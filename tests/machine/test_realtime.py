@@ -12,8 +12,8 @@ from tests.cli.support import python
 from tests.machines import LINEAR
 from tests.runtime.clock import MS, FakeClock
 
-from motionlayer import AxisState, Machine, RealTime, Simulation
-from motionlayer.event import Event, Input, Level
+from motionlayer import AxisState, CommandAborted, Machine, RealTime, Simulation
+from motionlayer.event import Device, Event, Input, Level
 from motionlayer.machine import MachineRun
 from motionlayer.verify import assert_valid
 
@@ -155,6 +155,35 @@ def test_more_than_ten_late_ticks_brake_all_axes_and_a_replay_does_the_same() ->
     assert again.trace.hash == run.trace.hash
     assert replayed([]).trace.hash != run.trace.hash
     assert_valid(run.trace)
+
+
+def test_axes_that_brake_because_of_lateness_come_to_rest_though_the_only_program_fails() -> None:
+    clock = FakeClock()
+    run = RealTime(machine(), clock=clock)
+    x, y = run.axes.values()
+
+    async def leaves() -> None:
+        await y.enable()
+        y.move_velocity(400.0)
+
+    async def shuttle() -> None:
+        await x.enable()
+        move = x.move_absolute(300.0)
+        await run.sleep(0.1)
+        clock.work(1000 * MS)  # as SIGSTOP does, and SIGCONT a second later
+        await move
+
+    run.start(leaves())
+    with pytest.raises(CommandAborted):
+        run.run(shuttle())
+    assert [axis.state for axis in (x, y)] == [AxisState.STANDSTILL] * 2
+    assert x.set_velocity == y.set_velocity == 0.0
+    assert_valid(run.trace)
+
+
+def test_messages_about_lateness_are_of_the_main_program() -> None:
+    run, _ = play_late({100: int(12.5 * MS)})
+    assert [event.device for event in late_events(run)] == [Device.Device_Main]
 
 
 def test_a_suspended_computer_brakes_once_and_goes_on() -> None:

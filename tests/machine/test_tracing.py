@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from motionlayer import Machine, Simulation
+from motionlayer import Machine, Simulation, replay
+from motionlayer.event import Input, Level
 from motionlayer.machine._programs import Source, load_program
 
 MACHINE = {
@@ -57,3 +58,17 @@ def test_the_path_of_a_program_is_no_part_of_the_hash(tmp_path: Path) -> None:
         assert run.trace.header["programs"][0]["path"] == str(file)
         hashes.add(run.trace.hash)
     assert len(hashes) == 1
+
+
+def test_trouble_of_the_writer_reaches_the_run_as_an_input() -> None:
+    """When it comes depends on the computer; a replay is given it, and has no trouble of its own."""
+    with Simulation(Machine.from_dict(MACHINE)) as run:
+        run.step(5)
+        assert run._tracing is not None
+        run._tracing._warn("rows of the trace are missing")
+        run.step(5)
+    trace = run.trace
+    assert trace.inputs == (Input(5, "trace", b"rows of the trace are missing"),)
+    (event,) = [event for event in trace.events if event.level is Level.WARNING]
+    assert (event.tick, event.source, event.text) == (5, "trace", "rows of the trace are missing")
+    assert replay(trace).same

@@ -10,7 +10,7 @@ import pytest
 
 from motionlayer.command import ErrorId
 from motionlayer.event import Kind
-from motionlayer.nc import Axis, AxisCommand, Direction
+from motionlayer.nc import Axis, AxisCommand, BufferMode, Direction
 from tests.machines import LINEAR, error_of, finish, ready
 from tests.nc.test_states import everything
 
@@ -173,3 +173,31 @@ def test_targets_at_the_end_of_the_world(position: float) -> None:
 def test_current_with_a_bad_velocity() -> None:
     _, x = ready()
     refused(x, lambda: x.move_velocity(-10.0, Direction.CURRENT), ErrorId.VELOCITY)
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments", "keywords", "hint"),
+    [
+        ("move_absolute", (1.0,), {"velocty": 1.0}, "did you mean velocity"),
+        ("move_absolute", (1.0,), {"color": 1.0}, "it takes"),
+        ("move_velocity", (1.0,), {"position_monitoring": True}, "it takes|did you mean"),
+        ("jog", (Direction.POSITIVE,), {"buffer_mode": BufferMode.BUFFERED}, "it takes"),
+        ("stop", (), {"buffer_mode": BufferMode.BUFFERED}, "it takes"),
+        ("halt", (), {"velocity": 1.0}, "did you mean|it takes"),
+    ],
+)
+def test_a_keyword_that_a_command_does_not_take(
+    name: str, arguments: tuple[Any, ...], keywords: dict[str, Any], hint: str
+) -> None:
+    run, x = ready()
+    with pytest.raises(TypeError, match=rf"{name}\(\) takes no keyword {next(iter(keywords))}; ({hint})"):
+        getattr(x, name)(*arguments, **keywords)
+    assert x.command is None
+    run.step()
+
+
+@pytest.mark.parametrize("value", [1, 0.0, "yes"])
+def test_position_monitoring_is_a_bool(value: Any) -> None:
+    _, x = ready()
+    with pytest.raises(TypeError, match=r"position_monitoring is .*; it must be True or False"):
+        x.move_absolute(1.0, position_monitoring=value)

@@ -166,6 +166,57 @@ def test_chains_under_a_changing_override(legs: list[Leg], overrides: list[tuple
     assert_valid(run.trace)
 
 
+@pytest.mark.parametrize("ticks", range(196, 216, 4))
+def test_an_override_that_falls_too_late_to_brake_before_a_joint(ticks: int) -> None:
+    """The joint is passed with the nearest speed that is left."""
+    run, x = chain()
+    x.move_absolute(100.0)
+    after = x.move_absolute(200.0, buffer_mode=BufferMode.BLENDING_HIGH)
+    run.step(ticks)
+    x.set_override(0.1)
+    finish(run, after)
+    assert x.set_position == 200.0
+    run.step(2)
+    assert_valid(run.trace)
+
+
+@pytest.mark.parametrize("offset", [0.0, 1e6])
+@pytest.mark.parametrize("mode", [BufferMode.BUFFERED, BufferMode.BLENDING_LOW])
+def test_a_follower_that_comes_while_the_axis_brakes_leaves_the_running_motion_alone(
+    offset: float, mode: BufferMode
+) -> None:
+    """In the midst of a brake the time grows with the third root of a way: rounding would cost microseconds there."""
+
+    def end(ticks: int, following: bool) -> float:
+        run, x = chain(start_position=offset)
+        move = x.move_relative(100.0)
+        run.step(ticks)
+        if following:
+            assert x.move_relative(-30.0, buffer_mode=mode).error is None
+        finish(run, move)
+        assert move.end_time is not None
+        run.step(2)
+        assert_valid(run.trace)
+        return move.end_time
+
+    alone = end(1, following=False)
+    for ticks in (230, 290, 310, 340, 347):
+        assert end(ticks, following=True) == alone
+
+
+@pytest.mark.parametrize("offset", [1e6, -1e6])
+@pytest.mark.parametrize("mode", [BufferMode.BLENDING_LOW, BufferMode.BUFFERED])
+def test_far_away_from_0_a_chain_takes_as_long(offset: float, mode: BufferMode) -> None:
+    """Whole ways are what they are elsewhere; only the setpoints between are rounded there."""
+    legs = [Leg(20.0 + k, 0.2 + 0.01 * (k % 7), 1.0, 0.9, 1.0, mode) for k in range(60)]
+    run, x = chain(start_position=offset)
+    start = run.time
+    commands = feed(run, x, legs)
+    assert commands[-1].end_time == pytest.approx(start + rule(legs), rel=1e-11)
+    run.step(2)
+    assert_valid(run.trace)
+
+
 @pytest.mark.slow
 def test_a_thousand_moves_lose_nothing() -> None:
     legs = [Leg(10.0, 0.2 + 0.001 * (k % 7), 1.0, 1.0, 1.0, BufferMode.BLENDING_LOW) for k in range(1000)]

@@ -7,7 +7,7 @@ import pytest
 
 from motionlayer import AxisState
 from motionlayer.command import ErrorId
-from motionlayer.nc import Axis, BufferMode, Calibration
+from motionlayer.nc import Axis, BufferMode, Calibration, StateDWord
 from motionlayer.store import Q
 from motionlayer.verify import assert_valid
 from tests.machines import error_of, finish, ready, state_of
@@ -87,6 +87,101 @@ def test_errors(home: dict[str, Any], start: float, error: ErrorId) -> None:
     assert x.set_velocity == 0.0
     assert x._table[Q.HOMING, 0] == 0.0
     assert_valid(run.trace)
+
+
+@pytest.mark.parametrize("servo", [False, True])
+@pytest.mark.parametrize("mode", ["cam", "index"])
+def test_a_cam_that_is_shorter_than_the_brake_is_released_too_early(servo: bool, mode: str) -> None:
+    home = (CAM if mode == "cam" else INDEX) | {"velocity": 200.0, "switch_width": 1.0}
+    run, x = ready(home=home)
+    if servo:
+        run, (x,) = ready_servos(home=home)
+    command = x.home()
+    finish(run, command)
+    assert error_of(command) is ErrorId.CAM_RELEASED_EARLY
+    assert state_of(x) is AxisState.ERRORSTOP
+    run.step(5)
+    assert_valid(run.trace)
+
+
+@pytest.mark.parametrize("start", [0.0, -50.5, -51.0])
+def test_a_cam_of_finite_width_has_its_reference_at_the_edge_of_the_search(start: float) -> None:
+    run, x = ready(home=CAM | {"velocity": 20.0, "switch_width": 1.0}, start_position=start)
+    finish(run, x.home(), 60_000)
+    finish(run, x.move_absolute(7.0))
+    assert x.set_position - float(x._table[Q.SHIFT, 0]) == pytest.approx(-50.0, abs=1e-12)
+    run.step(2)
+    assert_valid(run.trace)
+
+
+@pytest.mark.parametrize("servo", [False, True])
+def test_a_cam_that_is_left_on_its_other_side_is_latched_there(servo: bool) -> None:
+    """With the sync direction of the search the axis crosses the cam: its other edge is the reference."""
+    home = CAM | {"velocity": 20.0, "switch_width": 1.0, "sync_direction": "negative"}
+    run, x = ready(home=home)
+    if servo:
+        run, (x,) = ready_servos(home=home)
+    finish(run, x.home(), 60_000)
+    finish(run, x.move_absolute(7.0))
+    run.step(500)
+    assert x.set_position - float(x._table[Q.SHIFT, 0]) == pytest.approx(-51.0, abs=1e-9)
+    assert_valid(run.trace)
+
+
+@pytest.mark.parametrize(
+    ("changes", "bound"),
+    [
+        ({}, 1000.0),
+        ({"software_limit_min": None}, 600.0 * 40.0),
+        ({"software_limit_min": None, "software_limit_max": None}, 600.0 * 40.0),
+    ],
+)
+def test_a_search_is_bounded_although_nobody_says_how_far_it_goes(changes: dict[str, Any], bound: float) -> None:
+    """Twice the span of the software limits; without them what takes ten minutes."""
+    _, x = ready(home=CAM, **changes)
+    assert x.config.home.travel == bound
+
+
+def test_a_switch_that_never_comes_ends_the_search() -> None:
+    run, x = ready(home=CAM | {"switch": -5000.0, "velocity": 500.0})
+    command = x.home()
+    finish(run, command)
+    assert error_of(command) is ErrorId.CAM_NOT_FOUND
+    assert "within 1000.0 mm" in str(command.error)
+    run.step(200)
+    assert_valid(run.trace)
+
+
+@pytest.mark.parametrize(
+    ("home", "start", "shown"),
+    [
+        (CAM, 0.0, [0, 2, 3, 4, 6, 0]),
+        (CAM, -60.0, [0, 4, 6, 0]),
+        (INDEX, 0.0, [0, 2, 3, 4, 5, 6, 0]),
+        (CAM | {"mode": "switch"}, 0.0, [0, 2, 6, 0]),
+        (CAM | {"mode": "switch"}, -60.0, [0, 4, 6, 0]),
+        (CAM | {"mode": "direct"}, 0.0, [0]),
+        (CAM | {"travel": 30.0}, 0.0, [0, 2, 0]),
+        (INDEX | {"pulse_distance": 2.0}, 0.0, [0, 2, 3, 4, 5, 0]),
+        (CAM | {"velocity": 200.0, "switch_width": 1.0}, 0.0, [0, 2, 3, 0]),
+    ],
+)
+def test_the_interface_shows_the_phases(home: dict[str, Any], start: float, shown: list[int]) -> None:
+    """`NcToPlc.HomingState`, HomingBusy and Homed as a client sees them, cycle by cycle."""
+    run, x = ready(home=home, start_position=start)
+    ref = run.axis_refs["X"]
+    command = x.home()
+    seen, stepped = [0], 0
+    while command.busy or stepped < 3:
+        run.step()
+        stepped = stepped + 1 if not command.busy else 0
+        phase, flags = int(ref.NcToPlc.HomingState), int(ref.NcToPlc.StateDWord)
+        if phase != seen[-1]:
+            seen.append(phase)
+        assert bool(flags & StateDWord.HomingBusy) == (phase != 0)
+        assert not (flags & StateDWord.Homed and phase)
+    assert seen == shown
+    assert bool(int(ref.NcToPlc.StateDWord) & StateDWord.Homed) == command.done
 
 
 def test_direct_force_and_reset() -> None:

@@ -189,6 +189,8 @@ def test_every_error_that_a_drive_or_monitor_brings_has_its_reaction() -> None:
     off = {one for one, reaction in REACTIONS.items() if reaction is Reaction.POWER_OFF}
     assert off == {
         ErrorId.LAG,
+        ErrorId.VELOCITY_LAG,
+        ErrorId.NO_MOTION,
         ErrorId.NOT_ENABLED,
         ErrorId.ENCODER,
         ErrorId.DRIVE_NOT_READY,

@@ -13,7 +13,7 @@ from tests.machines import assert_smooth, error_of, finish, follow, ready, state
 LOW, HIGH = -100.0, 400.0
 
 
-@pytest.mark.parametrize("position", [math.nextafter(HIGH, 1e9), math.nextafter(LOW, -1e9), 1e6, -1e300])
+@pytest.mark.parametrize("position", [math.nextafter(HIGH, 1e9), math.nextafter(LOW, -1e9), 1e6, -1e50])
 def test_a_target_outside_is_refused(position: float) -> None:
     _, x = ready()
     assert error_of(x.move_absolute(position)) is ErrorId.TARGET_OUTSIDE_LIMITS

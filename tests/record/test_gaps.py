@@ -11,7 +11,7 @@ import pytest
 from motionlayer.event import Event, Input, Kind, Level
 from motionlayer.record import Gap, Recorder, Signal, Trace, TraceWriter
 from motionlayer.record._block import MOST_RECORDS, Block
-from motionlayer.record._recorder import LOSSY_BLOCKS
+from motionlayer.record._dimensions import LOSSY_BLOCKS
 from motionlayer.record.plot import write_page
 from motionlayer.record.plot._series import state_runs
 from motionlayer.record.plot._time import time_chart

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from motionlayer.record import Trace
-from motionlayer.record._recorder import BLOCK_TICKS, BLOCKS
+from motionlayer.record._dimensions import BLOCK_TICKS, BLOCKS
 from motionlayer.verify import assert_valid
 
 PENDULUM = """

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from motionlayer.command import Ledger
-from motionlayer.event import EventLog, Input, Level
+from motionlayer.event import Device, EventLog, Input, Level
 from motionlayer.runtime import Mailbox, MailboxFull, Receipt, Stage, Step
 from tests.runtime.bare import bare
 
@@ -273,3 +273,57 @@ def test_an_idle_tick_applies_and_acknowledges_too() -> None:
     run.mailbox.apply(run.tick)
     run.mailbox.acknowledge(run.tick)
     assert (seen, receipt.wait(0.0), run.tick) == ([b"while paused"], 3, 3)
+
+
+def test_waiting_in_a_tick_is_refused_at_once_and_allowed_when_settled() -> None:
+    run = bare()
+    run.mailbox.register("part", lambda _payload: None)
+    said: list[str] = []
+    receipts: list[Receipt] = []
+
+    async def program() -> None:
+        receipt = run.mailbox.post("part")
+        try:
+            receipt.wait()
+        except RuntimeError as error:
+            said.append(str(error))
+        await run.until(lambda: receipt.settled)
+        receipts.append(receipt)
+        assert receipt.wait() == 1
+
+    run.run(program(), time=1.0)
+    assert len(receipts) == 1
+    (text,) = said
+    assert text.startswith(
+        "channel part: wait() in a tick would hold up the run that it waits for; in a program `await"
+    )
+
+
+def test_another_thread_waits_while_a_program_runs() -> None:
+    run = bare()
+    run.mailbox.register("part", lambda _payload: None)
+    ticks: list[int] = []
+    begun = threading.Event()
+
+    def client() -> None:
+        receipt = run.mailbox.post("part")
+        begun.set()
+        ticks.append(receipt.wait())
+
+    async def program() -> None:
+        (thread,) = in_threads(client)
+        assert begun.wait(10.0)  # it waits, or will: in this very tick
+        await run.sleep(0.01)
+        thread.join(10.0)
+
+    run.run(program(), time=1.0)
+    assert ticks == [1]
+
+
+def test_what_is_said_about_inputs_is_of_the_main_program() -> None:
+    run = bare()
+    run.mailbox.register("part", lambda _payload: 1 / 0)  # type: ignore[arg-type]
+    run.mailbox.post("part")
+    run.step()
+    (event,) = run.events.last(Level.WARNING)
+    assert event.device == Device.Device_Main

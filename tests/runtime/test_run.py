@@ -133,7 +133,7 @@ def test_a_fault_of_our_own_step_ends_the_run_and_names_the_tick(monkeypatch: py
     def broken(_ended: object) -> None:
         raise ArithmeticError("broken")
 
-    monkeypatch.setattr(x, "profile_ended", broken)
+    monkeypatch.setattr(x, "cycle", x.cycle._replace(profile_ended=broken))
     with pytest.raises(CycleFault, match=r"tick \d+: broken") as caught:
         run.run(time=1.0)
     assert isinstance(caught.value.__cause__, ArithmeticError)

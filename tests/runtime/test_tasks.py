@@ -1,6 +1,6 @@
 """Cyclic programs and the tasks that call them."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -326,15 +326,20 @@ def test_a_program_that_never_returns_is_named_with_its_stack() -> None:
 
 
 def test_the_stack_of_a_stuck_program_begins_where_it_was_called() -> None:
-    """Also if it waits in a function of the runtime, here for a tick that cannot come."""
+    """Also if it stays in a function of the runtime, here one that asks for inputs which never come."""
+
+    def never() -> Iterator[Input]:
+        while run.tick == 0:
+            pass
+        yield Input(0, "part", b"")
+
     run = Simulation(machine(), patience=0.2)
-    run.mailbox.register("part", lambda _: None)
-    run.cyclic(lambda run: print(run.mailbox.post("part").wait()), name="waiting")
+    run.cyclic(lambda run: run.mailbox.feed(never()), name="waiting")
     with pytest.raises(ProgramStuck) as caught:
         run.run(time=1.0)
     frames = [line for line in str(caught.value).splitlines() if line.lstrip().startswith("File")]
     assert "test_tasks.py" in frames[0]
-    assert any("_mailbox.py" in line and line.endswith("in wait") for line in frames[1:]), frames
+    assert any("_mailbox.py" in line and line.endswith("in feed") for line in frames[1:]), frames
 
 
 def timed(budget: float | None, costs: dict[int, int], *, real_time: bool) -> tuple[Run, list[Input]]:

@@ -1,10 +1,13 @@
 """sleep, until, fail_after: waits in the run's own time."""
 
 import math
+from collections.abc import Callable
+from typing import Any
 
 import pytest
 
-from motionlayer import all_of
+from motionlayer import Simulation, all_of, any_of
+from motionlayer.event import Device, Event, Level
 from tests.machines import one_axis, play, ready
 
 
@@ -161,3 +164,80 @@ def test_a_wait_after_a_timeout_can_be_taken_up_again() -> None:
         assert x.set_position == 300.0
 
     play(run, program)
+
+
+def line_of(function: Callable[..., object], offset: int) -> str:
+    """Return the place of a line behind the first one of a function, as messages name it."""
+    return f"test_waits.py:{function.__code__.co_firstlineno + offset} in {function.__name__}"
+
+
+def forgotten(run: Simulation) -> list[Event]:
+    return [one for one in run.events.last(Level.WARNING) if "is not awaited" in one.text]
+
+
+def test_a_wait_without_await_is_a_warning_that_names_the_line_once() -> None:
+    run, _ = one_axis()
+
+    async def careless() -> None:
+        for _ in range(3):
+            run.sleep(1.0)
+            await run.sleep(0.002)
+            run.until(lambda: False)
+
+    play(run, careless)
+    at_first, at_last = forgotten(run)
+    assert at_first.text == (
+        f"sleep(1) at {line_of(careless, 2)} is not awaited, so it does nothing: write `await` before it"
+    )
+    assert at_last.text.startswith(f"until(...) at {line_of(careless, 4)} is not awaited")
+    assert (at_first.tick, at_last.tick) == (0, 2)
+    assert (at_first.level, at_first.source, at_first.device) == (
+        Level.WARNING,
+        "program careless",
+        Device.Device_Main,
+    )
+    assert run.tick == 7
+
+
+def test_a_wait_without_await_before_the_end_or_a_failure_is_found_too() -> None:
+    run, _ = one_axis()
+
+    async def returns() -> None:
+        run.sleep(1.0)
+
+    async def fails() -> None:
+        run.sleep(2.0)
+        raise LookupError("lost")
+
+    def cyclic(run: Simulation) -> None:
+        run.sleep(3.0)
+
+    run.start(returns())
+    run.start(fails())
+    run.cyclic(cyclic)
+    run.step(5)
+    texts = [(one.source, one.text) for one in forgotten(run)]
+    assert [source for source, _ in texts] == ["program returns", "program fails", "program cyclic"]
+    assert "the next cycle" in texts[-1][1]
+
+
+def test_a_wait_that_is_awaited_later_or_with_others_or_by_another_program_is_no_mistake() -> None:
+    run, _ = one_axis()
+    shared: list[Any] = []
+
+    async def careful() -> None:
+        later = run.sleep(0.003)
+        both = all_of(run.sleep(0.001), run.until(lambda: True))
+        shared.append(run.sleep(0.01))
+        await run.sleep(0.002)
+        await any_of(later, run.sleep(1.0))
+        await both
+        await run.sleep(0.0)
+
+    async def other() -> None:
+        await shared[0]
+
+    run.start(careful())
+    run.start(other())
+    run.run(time=1.0)
+    assert forgotten(run) == []

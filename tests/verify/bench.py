@@ -3,7 +3,7 @@
 import copy
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -32,6 +32,9 @@ SIGNALS = (
     "ready",
 )
 DISABLED, STANDSTILL, ERRORSTOP, STOPPING, HOMING, DISCRETE, CONTINUOUS = 1, 2, 3, 4, 5, 6, 7
+SEARCH = 50.0
+"""Velocity of the search of a homing, u/s."""
+
 DEFAULT = Limits(1000.0, 10_000.0, 12_000.0, 200_000.0)
 
 
@@ -63,6 +66,7 @@ class Bench:
 
     def _plan(self, kind: Any, target: float, pieces: Floats, tick: int | None = None) -> None:
         tick = self.tick if tick is None else tick
+        self._tell(kind, target)
         limits = self.maxima if kind == "set" else self.limits
         self.plans = [plan for plan in self.plans if plan.tick < tick or (plan.kind == "set" != kind)]
         self.plans.append(
@@ -81,15 +85,30 @@ class Bench:
             )
         )
 
-    def event(self, kind: Kind) -> None:
-        self.events.append(Event(self.tick, Level.INFO, kind, self.name, "", 0, self.open))
+    def _tell(self, kind: Any, target: float) -> None:
+        """Let the message of the command tell of its plan, if it has not told anything yet."""
+        if not self.open or self.events[-1].kind != Kind.ACCEPTED or self.events[-1].text:
+            return
+        on = f"move_continuous_relative(distance=0.0, end_velocity={abs(target)})"
+        calls = {"position": f"move_absolute(position={target})", "velocity": on, "stop": "stop()"}
+        self.events[-1] = self.events[-1]._replace(text=self._call(calls.get(kind, "home()")))
 
-    def accept(self) -> None:
+    def event(self, kind: Kind, text: str = "") -> None:
+        self.events.append(Event(self.tick, Level.INFO, kind, self.name, text, 0, self.open))
+
+    def accept(self, text: str = "", **dynamics: float) -> None:
+        """Accept a command; its text is the call, with the dynamics given and those that are not the maxima."""
         if self.open:
             self.event(Kind.ABORTED)
         self.number += 1
         self.open = self.number
-        self.event(Kind.ACCEPTED)
+        self.event(Kind.ACCEPTED, self._call(text, **dynamics) if text else "")
+
+    def _call(self, text: str, **dynamics: float) -> str:
+        unusual = {name: value for name, value in asdict(self.limits).items() if value != getattr(self.maxima, name)}
+        name, _, arguments = text.partition("(")
+        given = [f"{one}={value}" for one, value in (unusual | dynamics).items()]
+        return f"{name}({', '.join([*filter(None, [arguments[:-1]]), *given])})"
 
     def limit(self, **limits: float) -> None:
         """Change limits from the next command on."""
@@ -101,24 +120,27 @@ class Bench:
         self.open = 0
 
     def enable(self) -> None:
-        self.accept()
+        self.accept("enable()")
         self.asked = True
         self.run(1)
         self.state, self.ready = STANDSTILL, True
         self.run(1)
 
     def move(self, target: float) -> None:
-        self.accept()
+        self.accept(f"move_absolute(position={target})")
         self.state = DISCRETE
         self._plan("position", target, to_position(self.now, target, self.limits))
 
     def move_velocity(self, target: float) -> None:
-        self.accept()
-        self.state = CONTINUOUS
-        self._plan("velocity", target, to_velocity(self.now, target, self.limits))
+        way = "NEGATIVE" if target < 0.0 else "POSITIVE"
+        self.accept(f"move_velocity(direction={way})", velocity=abs(target))
+        self.state, usual = CONTINUOUS, self.limits
+        self.limit(velocity=abs(target))
+        self._plan("velocity", target, to_velocity(self.now, target, usual))
+        self.limits = usual
 
     def stop(self, state: int = STOPPING) -> None:
-        self.accept()
+        self.accept("stop()" if state == STOPPING else "halt()")
         self.state = state
         self._plan("stop", math.nan, to_stop(self.now, self.limits))
 
@@ -130,7 +152,7 @@ class Bench:
         self._plan("stop", math.nan, to_stop(self.now, self.limits))
 
     def home(self, position: float) -> None:
-        self.accept()
+        self.accept(f"home(position={position})")
         self.state = HOMING
         self._plan("set", position, np.array([[0.0, position, 0.0, 0.0, 0.0]]))
         self.now = (position, 0.0, 0.0)
@@ -182,9 +204,11 @@ class Bench:
             "max_acceleration": self.maxima.acceleration,
             "max_deceleration": self.maxima.deceleration,
             "max_jerk": self.maxima.jerk,
+            **asdict(self.maxima),
             "software_limit_min": self.soft[0],
             "software_limit_max": self.soft[1],
             "drive": {"kind": "ideal"},
+            "home": {"mode": "switch", "direction": "positive", "velocity": SEARCH},
         }
 
 

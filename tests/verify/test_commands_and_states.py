@@ -10,6 +10,7 @@ from motionlayer.record import Trace
 from motionlayer.verify import assert_valid, verify
 
 from .bench import CONTINUOUS, DISABLED, DISCRETE, ERRORSTOP, HOMING, STANDSTILL, STOPPING, Bench, changed
+from .planner import to_position
 from .scenarios import axis, recorded
 
 EVENTS = range(len(recorded("mm").events))
@@ -144,12 +145,13 @@ def test_motion_that_does_not_fit_the_state_is_found() -> None:
     assert _rules(bench.trace()) == {"state and plan"}
 
 
-@pytest.mark.parametrize(("target", "rules"), [(5.0, set()), (4.0, {"state and plan"})])
+@pytest.mark.parametrize(("target", "rules"), [(5.0, set()), (4.0, {"state and plan", "command target"})])
 def test_an_endless_motion_may_end_at_a_software_limit_only(target: float, rules: set[str]) -> None:
     bench = Bench(soft=(-1.0, 5.0))
     bench.enable()
-    bench.move(target)
+    bench.accept("move_velocity(direction=POSITIVE)", velocity=bench.maxima.velocity)
     bench.state = CONTINUOUS
+    bench._plan("position", target, to_position(bench.now, target, bench.maxima))
     bench.run(20)
     assert _rules(bench.trace()) == rules
 

@@ -9,8 +9,8 @@ import pytest
 from motionlayer.record import Trace
 from motionlayer.verify import assert_valid, verify
 
-from .bench import HOMING, STOPPING, Bench
-from .planner import Floats, Limits, roll, travel
+from .bench import HOMING, SEARCH, STOPPING, Bench
+from .planner import Floats, Limits, roll, to_velocity, travel
 
 MAXIMA = Limits(100.0, 1000.0, 2000.0, 50_000.0)
 
@@ -174,9 +174,12 @@ def test_homing_and_redefining_may_leave_the_software_limits() -> None:
     bench.run()
     bench.run(3)
     assert_valid(bench.trace())
-    bench.move(8.0)
+    bench.accept("home(position=0.0)")
     bench.state = HOMING
-    bench.run(20)
+    bench.limit(velocity=SEARCH)
+    bench._plan("velocity", SEARCH, to_velocity(bench.now, SEARCH, bench.maxima))
+    bench.run(60)
+    assert bench.now[0] > 8.0
     assert_valid(bench.trace())
     bench.stop()
     bench.run()

@@ -1,5 +1,6 @@
 """What is right is found right."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from motionlayer.event import Event, Kind
 from motionlayer.verify import assert_valid, verify
 
 from .bench import Bench, changed, join
@@ -92,7 +94,8 @@ def _drive(bench: Bench, operation: str, share: float, ticks: int | None) -> Non
     elif operation == "move":
         bench.move(bench.start + share * maxima.velocity * 0.1)
     else:
-        bench.move_velocity(share * bench.limits.velocity)
+        # A velocity is not 0, and what the axis rounds to 0 is none.
+        bench.move_velocity(math.copysign(max(abs(share), 1e-3), share) * bench.limits.velocity)
     bench.run(ticks if ticks is not None or operation != "limit" else 0)
 
 
@@ -135,6 +138,15 @@ def test_a_plan_that_takes_over_inside_a_cycle_is_valid() -> None:
     rest = plan.pieces[k:] - [time, 0.0, 0.0, 0.0, 0.0]
     later = replace(plan, tick=plan.tick + cycles, offset=cycles * trace.base_cycle - time, pieces=rest)
     assert later.offset < 0.0
-    assert_valid(changed(trace, plans=(*trace.plans[:2], later, *trace.plans[2:])))
+    waited = tuple(_buffered(event) if event.command == plan.command else event for event in trace.events)
+    plans = (*trace.plans[:2], later, *trace.plans[2:])
+    assert_valid(changed(trace, plans=plans, events=waited))
+    (finding,) = verify(changed(trace, plans=plans)).findings
+    assert finding.message.startswith(f"command {plan.command} begins inside a cycle: move_absolute(")
     beside = replace(later, pieces=later.pieces + np.array([0.0, 1e-9, 0.0, 0.0, 0.0]))
-    assert not verify(changed(trace, plans=(*trace.plans[:2], beside, *trace.plans[2:]))).ok
+    plans = (*trace.plans[:2], beside, *trace.plans[2:])
+    assert not verify(changed(trace, plans=plans, events=waited)).ok
+
+
+def _buffered(event: Event) -> Event:
+    return event._replace(text=f"{event.text[:-1]}, buffer_mode=BUFFERED)") if event.kind == Kind.ACCEPTED else event

@@ -7,7 +7,7 @@ from typing import Final
 from motionlayer.bench import _command, _load, _peers, _recording
 from motionlayer.bench._row import MICRO, Effort, Failed, Figure, Goal, Peer, Row
 from motionlayer.bench._timing import median_us
-from motionlayer.event import Level
+from motionlayer.event import Kind
 from motionlayer.profile import MAX_PIECES, Limits, plan_velocity
 from motionlayer.store import Store
 
@@ -45,7 +45,7 @@ def plan(effort: Effort) -> Figure:
                 between=lambda: run.step(_load.MOVE_TICKS),
             )
         )
-        refused = run.events.last(Level.WARNING)
+        refused = [event for event in run.events.last() if event.kind is Kind.REFUSED]
         if refused:
             raise Failed(f"a move was refused: {refused[0].text}")
         return figure

@@ -22,7 +22,7 @@ class ExitCode(enum.IntEnum):
     USAGE = 2, "the command line or an environment variable is wrong"
     STUCK = 3, "a program did not yield; the run was ended"
     FAULT = 4, "a fault of motionlayer itself; please report it"
-    TRACE = 5, "a trace, a page or another output cannot be read, judged or written"
+    OUTPUT = 5, "a trace, a page or another output cannot be read, judged or written"
     HUNG_UP = 129, "the terminal was closed (SIGHUP)"
     INTERRUPTED = 130, "interrupted (Ctrl-C)"
     TERMINATED = 143, "terminated (SIGTERM)"
@@ -48,7 +48,7 @@ def say(text: str) -> None:
     except BrokenPipeError:
         raise
     except OSError as error:
-        raise Stop(ExitCode.TRACE, f"stdout cannot be written: {error.strerror}; redirect it elsewhere") from error
+        raise Stop(ExitCode.OUTPUT, f"stdout cannot be written: {error.strerror}; redirect it elsewhere") from error
 
 
 def complain(message: str) -> None:

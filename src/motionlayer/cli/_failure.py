@@ -20,6 +20,8 @@ def program_failure(program: Program) -> str:
         said = f"sys.exit({failure.code}) was called; return instead"
     elif isinstance(failure, CommandError | CommandAborted):
         said = str(failure)
+    elif isinstance(failure, BrokenPipeError):
+        said = "nobody reads what it writes any more, as behind `| head`"
     elif isinstance(failure, RuntimeError) and "no running event loop" in str(failure):
         said += "; asyncio does not work in a program: await run.sleep(seconds), run.until(predicate) or a command"
     return f"program {program.name}: {said}{place(failure)}"

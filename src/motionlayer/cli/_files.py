@@ -31,7 +31,7 @@ def load_trace(path: Path) -> Trace:
     try:
         return Trace.load(path)
     except TraceError as error:
-        raise Stop(ExitCode.TRACE, str(error)) from error
+        raise Stop(ExitCode.OUTPUT, str(error)) from error
 
 
 def draw(trace: Trace, page: Path) -> None:
@@ -41,7 +41,7 @@ def draw(trace: Trace, page: Path) -> None:
     try:
         write_page(trace, page)
     except TraceError as error:
-        raise Stop(ExitCode.TRACE, str(error)) from error
+        raise Stop(ExitCode.OUTPUT, str(error)) from error
 
 
 def refuse_overwriting(outputs: Iterable[Path | None], inputs: Iterable[Path]) -> None:
@@ -54,6 +54,6 @@ def refuse_overwriting(outputs: Iterable[Path | None], inputs: Iterable[Path]) -
             raise click.UsageError(f"{output} would be overwritten; name another file")
         taken.add(output.resolve())
         if not output.parent.is_dir():
-            raise Stop(ExitCode.TRACE, f"{output} cannot be written: there is no folder {output.parent}")
+            raise Stop(ExitCode.OUTPUT, f"{output} cannot be written: there is no folder {output.parent}")
         if output.is_dir():
-            raise Stop(ExitCode.TRACE, f"{output} cannot be written: it is a folder")
+            raise Stop(ExitCode.OUTPUT, f"{output} cannot be written: it is a folder")

@@ -25,10 +25,11 @@ def losses(run: MachineRun) -> Iterator[str]:
     """Yield what is missing in the message files."""
     if run.log.missing:
         reason = run.log.trouble or "the writer could not keep up; log less, or run slower"
-        yield f"{run.log.missing} messages are missing in {run.log.folder}: {reason}"
+        yield f"{run.log.missing} messages are missing in {run.log.folder} and are lost: {reason}"
 
 
 def warn(run: MachineRun) -> None:
     """Tell of trouble that was overcome."""
     if run.log.trouble and not run.log.missing:
-        click.echo(f"Warning: for a time {run.log.trouble}; nothing is missing", err=True)
+        text = f"messages could not be written into {run.log.folder} for a time, and nothing is missing"
+        click.echo(f"Warning: {text}: {run.log.trouble}", err=True)

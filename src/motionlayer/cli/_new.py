@@ -48,5 +48,5 @@ def new(name: str, folder: Path) -> None:
                 stream.write(text)
             say(f"created {target / file}")
     except OSError as error:
-        raise Stop(ExitCode.TRACE, f"{error.filename or target} cannot be written: {error.strerror}") from error
+        raise Stop(ExitCode.OUTPUT, f"{error.filename or target} cannot be written: {error.strerror}") from error
     say(f"run it with: motionlayer run {target / FILES[0]}")

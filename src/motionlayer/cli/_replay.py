@@ -50,7 +50,7 @@ def _replayed(recorded: "Trace", path: Path, instead: "list[Source]") -> ExitCod
         with Progress(count, recorded.base_cycle, sys.stderr) as progress:
             done = run_again(recorded, folder=path.parent, instead=instead, watch=progress)
     except ReplayError as error:
-        raise Stop(ExitCode.TRACE, f"{path} cannot be replayed: {error}") from error
+        raise Stop(ExitCode.OUTPUT, f"{path} cannot be replayed: {error}") from error
     except ProgramError as error:
         raise Stop(ExitCode.FAILED, f"{error}{place(error.__cause__)}") from error
     for note in done.notes:

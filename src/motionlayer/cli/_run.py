@@ -60,8 +60,8 @@ from motionlayer.cli._options import LEVELS, Options, page, seconds, speed
 def run(ctx: click.Context, /, **options: object) -> None:
     """Run the programs of MACHINE, as fast as the computer allows, or with --realtime in the time of a clock.
 
-    The run ends when all programs have ended or its time is over. With --trace or --hash the last line is the hash
-    of the run: the same machine, program and seed give the same hash.
+    The run ends when all programs have ended and no axis brakes, or when its time is over. With --trace or --hash the
+    last line is the hash of the run: the same machine, program and seed give the same hash.
     """
     from motionlayer.cli._simulate import simulate  # noqa: PLC0415 - help does without it
 

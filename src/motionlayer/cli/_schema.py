@@ -37,5 +37,5 @@ def schema(module: bool, out: Path | None) -> None:
     try:
         out.write_text(text + "\n", encoding="utf-8")
     except OSError as error:
-        raise Stop(ExitCode.TRACE, f"{out} cannot be written: {error.strerror}") from error
+        raise Stop(ExitCode.OUTPUT, f"{out} cannot be written: {error.strerror}") from error
     say(f"schema      {out}")

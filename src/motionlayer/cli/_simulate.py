@@ -116,7 +116,7 @@ def _made(machine: Machine, programs: list[Loaded], options: Options) -> Machine
             return RealTime(machine, speed=options.speed or 1.0, **common)
         return Simulation(machine, statistics=options.statistics, **common)
     except (TraceError, LogError) as error:
-        raise Stop(ExitCode.TRACE, str(error)) from error
+        raise Stop(ExitCode.OUTPUT, str(error)) from error
 
 
 def _execute(run: MachineRun, options: Options) -> list[Problem]:
@@ -154,7 +154,7 @@ def _failures(run: MachineRun) -> list[Problem]:
 def _fault(fault: CycleFault) -> Problem:
     cause = fault.__cause__
     if isinstance(cause, TraceError):  # found when the next block was to be written
-        return Problem(ExitCode.TRACE, str(cause))
+        return Problem(ExitCode.OUTPUT, str(cause))
     lines = "".join(traceback.format_exception(cause)) if cause is not None else ""
     text = f"a fault of motionlayer itself in {fault}; the run has ended. Please report it with these lines:\n{lines}"
     return Problem(ExitCode.FAULT, text.rstrip())
@@ -166,16 +166,16 @@ def _finish(run: MachineRun) -> tuple[str, list[Problem]]:
     try:
         digest = run.close()
     except TraceError as error:
-        problems.append(Problem(ExitCode.TRACE, str(error)))
+        problems.append(Problem(ExitCode.OUTPUT, str(error)))
     except LogError as error:
         problems.append(Problem(ExitCode.FAULT, str(error)))
     warn(run)
-    return digest, problems + [Problem(ExitCode.TRACE, text) for text in losses(run)]
+    return digest, problems + [Problem(ExitCode.OUTPUT, text) for text in losses(run)]
 
 
 def _draw(run: MachineRun, page: Path | None, problems: list[Problem]) -> list[str]:
     """Draw what was recorded, also of a run that failed; return the page if it was written."""
-    if page is None or any(problem.code is ExitCode.TRACE for problem in problems):
+    if page is None or any(problem.code is ExitCode.OUTPUT for problem in problems):
         return []
     try:
         draw(run.trace, page)

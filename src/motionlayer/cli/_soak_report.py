@@ -142,4 +142,4 @@ def write(report: Soaked, path: Path) -> None:
     try:
         path.write_text(json.dumps(as_json(report), indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
     except OSError as error:
-        raise Stop(ExitCode.TRACE, f"{path} cannot be written: {error.strerror}") from error
+        raise Stop(ExitCode.OUTPUT, f"{path} cannot be written: {error.strerror}") from error

@@ -78,7 +78,7 @@ def _made(machine: Machine, options: SoakOptions) -> MachineRun:
             return RealTime(machine, speed=options.speed or 1.0, **settings)
         return Simulation(machine, statistics=True, **settings)
     except TraceError as error:
-        raise Stop(ExitCode.TRACE, str(error)) from error
+        raise Stop(ExitCode.OUTPUT, str(error)) from error
 
 
 def _judged(run: MachineRun, options: SoakOptions) -> tuple[str, str]:

@@ -8,6 +8,7 @@ from motionlayer.cli._options import Options
 from motionlayer.cli._tally import Tally
 from motionlayer.event import Level
 from motionlayer.machine import MachineRun, RealTime
+from motionlayer.nc import Axis
 
 MOST: Final = 8
 """Axes and programs that are listed one by one."""
@@ -60,11 +61,13 @@ def lines_of(name: str, lines: Sequence[str]) -> Iterator[str]:
 
 
 def _axes(run: MachineRun) -> list[str]:
-    units = run.machine.description.axis
-    return [
-        f"{name} at {axis.set_position:.9g} {units[name].unit}, {axis.state.name.lower().replace('_', ' ')}"
-        for name, axis in run.axes.items()
-    ]
+    return [_axis(axis, run.machine.description.axis[name].unit) for name, axis in run.axes.items()]
+
+
+def _axis(axis: Axis, unit: str) -> str:
+    """Return where an axis is, and how fast it goes on if it does."""
+    moves = f", still moves at {axis.set_velocity:.9g} {unit}/s" if axis.set_velocity else ""
+    return f"{axis.name} at {axis.set_position:.9g} {unit}, {axis.state.name.lower().replace('_', ' ')}{moves}"
 
 
 def _programs(tally: Tally) -> list[str]:

@@ -15,7 +15,7 @@ class Tally:
     """A listener of events.
 
     Attributes:
-        levels: number of warnings and errors of other than programs, by level.
+        levels: number of warnings and errors by level, without the ends of programs.
         last: the last of them.
         ends: number of programs by name and the way they ended, in order.
     """
@@ -28,9 +28,8 @@ class Tally:
     def __call__(self, event: Event) -> None:
         """Take in an event."""
         _, is_program, name = event.source.partition("program ")
-        if is_program:
-            if event.kind in _ENDS:
-                self.ends[name, _ENDS[event.kind]] += 1
+        if is_program and event.kind in _ENDS:
+            self.ends[name, _ENDS[event.kind]] += 1
         elif event.level <= Level.WARNING:
             self.levels[event.level] += 1
             self.last.append(event)

@@ -24,7 +24,7 @@ def verify(ctx: click.Context, trace: Path, *, partial: bool) -> None:
     if report.findings:
         ctx.exit(ExitCode.FAILED)
     if report.refused:
-        ctx.exit(ExitCode.TRACE)
+        ctx.exit(ExitCode.OUTPUT)
     if not (report.complete or partial):
         complain(f"{trace} is incomplete; --partial accepts the part that was judged")
-        ctx.exit(ExitCode.TRACE)
+        ctx.exit(ExitCode.OUTPUT)

@@ -6,9 +6,10 @@ knows nothing of axes.
 """
 
 from motionlayer.drive._fault import FAULTS, Fault, FaultKind
-from motionlayer.drive._ideal import IdealDrives, ReferenceSwitch
+from motionlayer.drive._ideal import IdealDrives
 from motionlayer.drive._pulse import ZeroPulse, ZeroPulses
 from motionlayer.drive._servo import Servo, ServoDrives
+from motionlayer.drive._switch import ReferenceSwitch
 
 __all__ = [
     "FAULTS",

@@ -6,15 +6,17 @@ stays where it is.
 
 import math
 from collections.abc import Sequence
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from motionlayer._kernel import kernel
+from motionlayer.drive._switch import ReferenceSwitch, changed_at, is_on
 from motionlayer.store import Q, Store
 
 SET_P: Final = Q.SET_P
+SET_V: Final = Q.SET_V
 ACTUAL_P: Final = Q.ACTUAL_P
 SHIFT: Final = Q.SHIFT
 ENABLE: Final = Q.ENABLE
@@ -23,24 +25,13 @@ HOME_INPUT: Final = Q.HOME_INPUT
 HOME_LATCH: Final = Q.HOME_LATCH
 
 
-class ReferenceSwitch(NamedTuple):
-    """A simulated reference switch.
-
-    Attributes:
-        position: drive position of its edge, u.
-        side: the switch is on from the edge in this direction (+1, -1).
-    """
-
-    position: float
-    side: float
-
-
 @kernel
 def _inputs(
     table: NDArray[np.float64],
     columns: NDArray[np.int64],
     edges: NDArray[np.float64],
     sides: NDArray[np.float64],
+    widths: NDArray[np.float64],
     changed: NDArray[np.int64],
 ) -> int:
     count = 0
@@ -52,11 +43,11 @@ def _inputs(
         if table[READY, i] != table[ENABLE, i]:
             table[READY, i] = table[ENABLE, i]
             new = 1
-        position = table[ACTUAL_P, i] - table[SHIFT, i]
-        on = 1.0 if sides[k] * (position - edges[k]) >= 0.0 else 0.0
+        d = sides[k] * (table[ACTUAL_P, i] - table[SHIFT, i] - edges[k])
+        on = is_on(d, widths[k])
         if on != table[HOME_INPUT, i]:
             table[HOME_INPUT, i] = on
-            table[HOME_LATCH, i] = edges[k]
+            table[HOME_LATCH, i] = edges[k] + sides[k] * changed_at(d, widths[k], sides[k] * table[SET_V, i])
             new = 1
         if new != 0:
             changed[count] = i
@@ -78,6 +69,7 @@ class IdealDrives:
         self._columns = np.array(columns, dtype=np.int64)
         self._edges = np.array([math.inf if s is None else s.position for s in switches])
         self._sides = np.array([1.0 if s is None else s.side for s in switches])
+        self._widths = np.array([math.inf if s is None else s.width for s in switches])
         self._changed = np.zeros(len(columns), dtype=np.int64)
         self._read()
         store.status_changed.clear()
@@ -87,6 +79,7 @@ class IdealDrives:
         self._read()
 
     def _read(self) -> None:
-        count = _inputs(self._store.table, self._columns, self._edges, self._sides, self._changed)
+        switches = self._edges, self._sides, self._widths
+        count = _inputs(self._store.table, self._columns, *switches, self._changed)
         if count:
             self._store.status_changed.extend(self._changed[:count].tolist())

@@ -34,8 +34,10 @@ class Par:
     """Cycles from the request to readiness, beyond the first."""
     PATIENCE: Final = 13
     """Cycles without communication that are borne."""
+    WIDTH: Final = 14
+    """Width of the reference switch, u; infinite for one that is on up to the end of the way."""
 
-    COUNT: Final = 14
+    COUNT: Final = 15
 
 
 class State:

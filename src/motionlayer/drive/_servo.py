@@ -34,10 +34,10 @@ from typing import NamedTuple
 import numpy as np
 
 from motionlayer.drive._fault import Agenda, Fault, FaultKind
-from motionlayer.drive._ideal import ReferenceSwitch
 from motionlayer.drive._layout import Par, State
 from motionlayer.drive._noise import key_of
 from motionlayer.drive._servo_kernels import Floats, cycle
+from motionlayer.drive._switch import ReferenceSwitch, is_on
 from motionlayer.store import Q, Status, Store
 
 
@@ -81,11 +81,11 @@ def _parameters(servo: Servo, dt: float) -> list[float]:
     """Return the rows of `Par` of one drive."""
     constant = servo.time_constant
     rise = -math.expm1(-dt / constant) if constant > 0.0 else 1.0
-    edge, side = (math.inf, 1.0) if servo.switch is None else servo.switch
+    edge, side, width = servo.switch or ReferenceSwitch(math.inf, 1.0)
     return [
         servo.position_gain, servo.feed_forward, rise, constant * rise, servo.max_acceleration * dt,
         servo.brake, 0.5 * servo.backlash, servo.resolution, servo.noise, edge, side, servo.leap,
-        float(servo.ready_delay), float(servo.patience),
+        float(servo.ready_delay), float(servo.patience), width,
     ]  # fmt: skip
 
 
@@ -166,6 +166,6 @@ class ServoDrives:
 def _set_switch(store: Store, column: int, switch: ReferenceSwitch | None) -> None:
     """Show the reference switch as it is before the first tick."""
     if switch is not None:
-        on = switch.side * (store.table[Q.ACTUAL_P, column] - switch.position) >= 0.0
-        store.table[Q.HOME_INPUT, column] = float(on)
+        d = switch.side * (float(store.table[Q.ACTUAL_P, column]) - switch.position)
+        store.table[Q.HOME_INPUT, column] = is_on(d, switch.width)
         store.table[Q.HOME_LATCH, column] = switch.position

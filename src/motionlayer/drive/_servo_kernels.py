@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from motionlayer._kernel import kernel
 from motionlayer.drive._layout import Par, State
 from motionlayer.drive._noise import noise
+from motionlayer.drive._switch import changed_at, is_on
 from motionlayer.store import Q, Status
 
 Floats = NDArray[np.float64]
@@ -48,6 +49,7 @@ SIDE: Final = Par.SIDE
 LEAP: Final = Par.LEAP
 PREPARE: Final = Par.PREPARE
 PATIENCE: Final = Par.PATIENCE
+WIDTH: Final = Par.WIDTH
 
 X: Final = State.X
 V: Final = State.V
@@ -223,7 +225,7 @@ def delay(state: Floats, delays: Integers, ring_p: Floats, ring_v: Floats, tick:
 def report(table: Floats, columns: Integers, par: Floats, state: Floats, changed: Integers, count: int) -> int:
     """Write positions, lags and switches, stale without communication; return how many columns changed."""
     actual, lag, shift, status = table[ACTUAL_P], table[LAG], table[SHIFT], table[STATUS]
-    reported, delayed, edge, side = state[REPORTED], state[DELAYED_P], par[EDGE], par[SIDE]
+    reported, delayed, edge, side, width = state[REPORTED], state[DELAYED_P], par[EDGE], par[SIDE], par[WIDTH]
     home_input = table[HOME_INPUT]
     for k in range(columns.shape[0]):
         i = columns[k]
@@ -231,10 +233,11 @@ def report(table: Floats, columns: Integers, par: Floats, state: Floats, changed
             continue
         actual[i] = reported[k] + shift[i]
         lag[i] = delayed[k] - reported[k]
-        on = 1.0 if side[k] * (reported[k] - edge[k]) >= 0.0 else 0.0
+        d = side[k] * (reported[k] - edge[k])
+        on = is_on(d, width[k])
         if on != home_input[i]:
             home_input[i] = on
-            table[HOME_LATCH, i] = edge[k]
+            table[HOME_LATCH, i] = edge[k] + side[k] * changed_at(d, width[k], side[k] * state[V, k])
             changed[count] = i
             count += 1
     return count

@@ -36,7 +36,7 @@ class Event(NamedTuple):
         level: how much a person should care.
         kind: a message, or which step of a command.
         source: the object it speaks of, `X` or `program pick`.
-        text: one line for a person.
+        text: one line for a person; where a command is accepted its call, whose numbers read back exactly.
         code: error id (`motionlayer.command.errors`), 0 without.
         command: number of the command within the run, 0 without.
         device: `e_Device` plus the id of the object, for the line of a message file.

@@ -24,28 +24,41 @@ from motionlayer.fb._parameter_blocks import (
     MC_WriteParameter,
     MC_WriteParameterPersistent,
 )
-from motionlayer.fb._parameters import PARAMETERS, MC_AxisParameter
+from motionlayer.fb._parameter_numbers import MC_AxisParameter
+from motionlayer.fb._parameters import PARAMETERS
 from motionlayer.fb._power import MC_Power, MC_Reset, MC_SetOverride
 from motionlayer.fb._reading import MC_ReadActualPosition, MC_ReadActualVelocity, MC_ReadAxisError, MC_ReadStatus
 from motionlayer.fb._referencing import (
     DEFAULT_HOME_POSITION,
+    E_EncoderReferenceMode,
     MC_Home,
     MC_SetPosition,
     ST_HomingOptions,
     ST_SetPositionOptions,
 )
 from motionlayer.fb._status import ST_AxisStatus
+from motionlayer.nc import AxisState as MC_AxisStates
+from motionlayer.nc import BufferMode as MC_BufferMode
+from motionlayer.nc import Calibration as MC_HomingMode
+from motionlayer.nc import Direction as MC_Direction
+from motionlayer.nc import JogMode as E_JogMode
 
 __all__ = [
     "AXIS_REF",
     "DEFAULT_HOME_POSITION",
     "PARAMETERS",
     "Block",
+    "E_EncoderReferenceMode",
+    "E_JogMode",
     "E_ReadMode",
     "MC_AxisParameter",
+    "MC_AxisStates",
+    "MC_BufferMode",
     "MC_CalcDynamicsByRampTime",
+    "MC_Direction",
     "MC_Halt",
     "MC_Home",
+    "MC_HomingMode",
     "MC_Jog",
     "MC_MoveAbsolute",
     "MC_MoveAdditive",

@@ -76,6 +76,7 @@ class Block:
 
     INPUTS: ClassVar[dict[str, Input]] = {}
     HIDDEN: ClassVar[tuple[str, ...]] = ()
+    _STRUCTURES: ClassVar[dict[str, type]] = {}
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
@@ -83,6 +84,8 @@ class Block:
         for base in cls.__mro__:
             declared |= {name: one for name, one in vars(base).items() if isinstance(one, Input)}
         cls.INPUTS = {name: declared[name] for name in sorted(declared, key=lambda name: name not in FIRST)}
+        kinds = {name: one.default for name, one in cls.INPUTS.items()}
+        cls._STRUCTURES = {name: kind for name, kind in kinds.items() if isinstance(kind, type)}
 
     def __init__(self) -> None:
         for name, entry in self.INPUTS.items():
@@ -109,6 +112,13 @@ class Block:
     def _unknown(self, inputs: dict[str, Any]) -> None:
         wrong = ", ".join(name for name in inputs if name not in self.INPUTS)
         raise TypeError(f"{type(self).__name__} has no input {wrong}; it has {', '.join(self.INPUTS)}")
+
+    def _check_structures(self) -> None:
+        """Take no other object for a structure: its missing fields would show only when they are asked for."""
+        for name, kind in self._STRUCTURES.items():
+            value = getattr(self, name)
+            if not isinstance(value, kind):
+                raise TypeError(f"{type(self).__name__}: {name} is {value!r}; it must be of {kind.__name__}")
 
     def _show_error(self, error: MotionError | ErrorId | None) -> None:
         self.Error = error is not None
@@ -153,6 +163,7 @@ class CommandBlock(Block):
 
     def _begin(self) -> None:
         """Issue the command; whatever it comes to, it is busy for one call at least, unless it is refused."""
+        self._check_structures()
         issued = self._issue()
         if issued.error is not None:
             self._enter(Phase.ERROR, issued.error)

@@ -16,7 +16,7 @@ class MC_Halt(AxisBlock):  # noqa: N801 - here and below, names of PLCopen
     Deceleration = lreal(0.0, "u/s²; 0 for that of the running command")
     Jerk = lreal(0.0, "u/s³; 0 for that of the running command")
     BufferMode = enumeration(nc.BufferMode.ABORTING, "when to brake")
-    Options = structure(ST_MoveOptions, "blending position")
+    Options = structure(ST_MoveOptions, "blending position; whether the window is waited for")
 
     def _issue(self) -> Command[Any]:
         mode, options = member_of(nc.BufferMode, self.BufferMode), self.Options
@@ -27,6 +27,7 @@ class MC_Halt(AxisBlock):  # noqa: N801 - here and below, names of PLCopen
             jerk=positive(self.Jerk),
             buffer_mode=mode,
             blending_position=options.BlendingPosition if options.EnableBlendingPosition else None,
+            position_monitoring=bool(options.EnableStopPositionMonitoring),
         )
 
 
@@ -38,12 +39,17 @@ class MC_Stop(AxisBlock):  # noqa: N801
 
     Deceleration = lreal(0.0, "u/s²; 0 for that of the running command")
     Jerk = lreal(0.0, "u/s³; 0 for that of the running command")
-    Options = structure(ST_MoveOptions, "not used")
+    Options = structure(ST_MoveOptions, "whether the window of the actual position is waited for")
 
     _command: nc.HeldCommand | None
 
     def _issue(self) -> Command[Any]:
-        return self._axis.stop(deceleration=positive(self.Deceleration), jerk=positive(self.Jerk), hold=True)
+        return self._axis.stop(
+            deceleration=positive(self.Deceleration),
+            jerk=positive(self.Jerk),
+            hold=True,
+            position_monitoring=bool(self.Options.EnableStopPositionMonitoring),
+        )
 
     def _watch(self) -> None:
         command = self._command

@@ -5,7 +5,7 @@ from typing import Final, Protocol
 
 from motionlayer.command import ErrorId
 from motionlayer.fb._block import Block
-from motionlayer.fb._inputs import integer, lreal
+from motionlayer.fb._inputs import integer, lreal, real
 
 FULL: Final = 1_000_000
 """`PlcToNc.Override` of 100 %."""
@@ -50,18 +50,19 @@ class MC_OverrideFilter(Block):  # noqa: N801 - here and below, names of the int
         self._since = -math.inf
 
     def _call(self) -> None:
-        low, high, steps = self.LowerOverrideThreshold, self.UpperOverrideThreshold, self.OverrideSteps
-        if steps <= 1 or low >= high or not 0.0 <= self.OverrideRecoveryTime < math.inf:
+        low, high = real(self, "LowerOverrideThreshold"), real(self, "UpperOverrideThreshold")
+        raw, steps, hold = (real(self, name) for name in ("OverrideValueRaw", "OverrideSteps", "OverrideRecoveryTime"))
+        if not (steps > 1 and low < high and 0.0 <= hold < math.inf and math.isfinite(raw * steps)):
             self._show_error(ErrorId.PARAMETER)
             return
         self._show_error(None)
-        share = min(max((self.OverrideValueRaw - low) / (high - low), 0.0), 1.0)
+        share = min(max((raw - low) / (high - low), 0.0), 1.0)
         value = round(round(share * steps) / steps * FULL)
         now = self._clock.time
         if value == self.OverrideValueFiltered:
             return
         # The clock counts cycles: half a millionth of a second is its rounding, not time.
-        if value in (0, FULL) or now - self._since >= self.OverrideRecoveryTime - 5e-7:
+        if value in (0, FULL) or now - self._since >= hold - 5e-7:
             self._since = now
             self.OverrideValueFiltered = value
             self.OverridePercentFiltered = value * 100.0 / FULL
@@ -89,7 +90,7 @@ class MC_CalcDynamicsByRampTime(Block):  # noqa: N801
         self._show(0.0, 0.0)
 
     def _call(self) -> None:
-        v, t, c = self.Velocity, self.RampTime, self.Stiffness
+        v, t, c = (real(self, name) for name in ("Velocity", "RampTime", "Stiffness"))
         if not (0.0 < v < math.inf and 0.0 < t < math.inf and 0.0 <= c <= 1.0):
             self._show(0.0, 0.0)
             self._show_error(ErrorId.PARAMETER)

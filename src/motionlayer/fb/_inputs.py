@@ -7,6 +7,7 @@ To a type checker an input is a value of its type; the class keeps an `Input`, a
 """
 
 import enum
+import numbers
 from typing import Final, NamedTuple, TypeVar, cast
 
 from motionlayer import nc
@@ -62,6 +63,18 @@ def structure(kind: type[S], text: str) -> S:
     return cast("S", Input(kind.__name__, kind, text))
 
 
+def real(block: object, name: str) -> float:
+    """Return an input that is a number.
+
+    Raises:
+        TypeError: it is none.
+    """
+    value = getattr(block, name)
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise TypeError(f"{type(block).__name__}: {name} is {value!r}; it must be a number")
+    return float(value)
+
+
 def member_of(kind: type[E], value: int) -> E | None:
     """Return the member with a value, None if there is none.
 
@@ -69,7 +82,9 @@ def member_of(kind: type[E], value: int) -> E | None:
         TypeError: it is not an integer.
     """
     if isinstance(value, bool) or not isinstance(value, int):
-        raise TypeError(f"{value!r} is not of {NAMES[kind]}: give one of {', '.join(kind.__members__)}")
+        raise TypeError(
+            f"{value!r} is not of {NAMES.get(kind, kind.__name__)}: give one of {', '.join(kind.__members__)}"
+        )
     try:
         return kind(value)
     except ValueError:

@@ -17,10 +17,14 @@ class ST_MoveOptions:  # noqa: N801 - the name of the interface
     Attributes:
         EnableBlendingPosition: hand over at `BlendingPosition`, not at the target of the running command.
         BlendingPosition: u.
+        IgnorePositionMonitoring: a positioning is done with its setpoint, whatever windows the axis has.
+        EnableStopPositionMonitoring: MC_Halt and MC_Stop wait for the window of the actual position too.
     """
 
     EnableBlendingPosition: bool = False
     BlendingPosition: float = 0.0
+    IgnorePositionMonitoring: bool = False
+    EnableStopPositionMonitoring: bool = False
 
 
 class Dynamics(TypedDict):
@@ -40,7 +44,7 @@ class Motion(AxisBlock):
     Deceleration = lreal(0.0, "u/s²; 0 for the default of the axis")
     Jerk = lreal(0.0, "u/s³; 0 for the default of the axis")
     BufferMode = enumeration(nc.BufferMode.ABORTING, "when to begin beside a running command")
-    Options = structure(ST_MoveOptions, "blending position")
+    Options = structure(ST_MoveOptions, "blending position; whether windows are waited for")
 
     METHOD: ClassVar = ""
     """Method of the axis that it stands for."""
@@ -65,7 +69,16 @@ class Motion(AxisBlock):
         }
 
 
-class MC_MoveAbsolute(Motion):  # noqa: N801 - here and below, names of PLCopen
+class Positioning(Motion):
+    """A move that ends at rest."""
+
+    def _moved(self, mode: nc.BufferMode, dynamics: Dynamics) -> nc.MoveKeywords:
+        """Return all keywords."""
+        waits = not self.Options.IgnorePositionMonitoring
+        return {**dynamics, "velocity": self.Velocity, "buffer_mode": mode, "position_monitoring": waits}
+
+
+class MC_MoveAbsolute(Positioning):  # noqa: N801 - here and below, names of PLCopen
     """Move to a position in the continuous coordinate system, also on modulo axes."""
 
     METHOD = "move_absolute"
@@ -73,10 +86,10 @@ class MC_MoveAbsolute(Motion):  # noqa: N801 - here and below, names of PLCopen
     Position = lreal(0.0, "target, u")
 
     def _move(self, mode: nc.BufferMode, dynamics: Dynamics) -> Command[Any]:
-        return self._axis.move_absolute(self.Position, velocity=self.Velocity, buffer_mode=mode, **dynamics)
+        return self._axis.move_absolute(self.Position, **self._moved(mode, dynamics))
 
 
-class MC_MoveRelative(Motion):  # noqa: N801
+class MC_MoveRelative(Positioning):  # noqa: N801
     """Move by a distance from the set position at which the command begins."""
 
     METHOD = "move_relative"
@@ -84,10 +97,10 @@ class MC_MoveRelative(Motion):  # noqa: N801
     Distance = lreal(0.0, "way, u")
 
     def _move(self, mode: nc.BufferMode, dynamics: Dynamics) -> Command[Any]:
-        return self._axis.move_relative(self.Distance, velocity=self.Velocity, buffer_mode=mode, **dynamics)
+        return self._axis.move_relative(self.Distance, **self._moved(mode, dynamics))
 
 
-class MC_MoveAdditive(Motion):  # noqa: N801
+class MC_MoveAdditive(Positioning):  # noqa: N801
     """Move by a distance from the last commanded target, reached or not."""
 
     METHOD = "move_additive"
@@ -95,10 +108,10 @@ class MC_MoveAdditive(Motion):  # noqa: N801
     Distance = lreal(0.0, "way, u")
 
     def _move(self, mode: nc.BufferMode, dynamics: Dynamics) -> Command[Any]:
-        return self._axis.move_additive(self.Distance, velocity=self.Velocity, buffer_mode=mode, **dynamics)
+        return self._axis.move_additive(self.Distance, **self._moved(mode, dynamics))
 
 
-class MC_MoveModulo(Motion):  # noqa: N801
+class MC_MoveModulo(Positioning):  # noqa: N801
     """Move to an orientation, a position modulo the period of the axis."""
 
     METHOD = "move_modulo"
@@ -110,7 +123,7 @@ class MC_MoveModulo(Motion):  # noqa: N801
         way = member_of(nc.Direction, self.Direction)
         if way is None:
             return self._refuse(self.METHOD, ErrorId.MODE_INVALID, "Direction", "1 to 4")
-        return self._axis.move_modulo(self.Position, way, velocity=self.Velocity, buffer_mode=mode, **dynamics)
+        return self._axis.move_modulo(self.Position, way, **self._moved(mode, dynamics))
 
 
 class Endless(Motion):
@@ -133,7 +146,7 @@ class MC_MoveVelocity(Endless):  # noqa: N801
     """Move without end with a velocity.
 
     Attributes:
-        InVelocity: the setpoint moves at the commanded velocity times the override.
+        InVelocity: the setpoint moves at the commanded velocity times the override; FALSE while 0 % holds it.
     """
 
     METHOD = "move_velocity"
@@ -158,7 +171,7 @@ class Continuous(Endless):
     """Endless motion past a position.
 
     Attributes:
-        InEndVelocity: the setpoint has passed the position and moves at the end velocity.
+        InEndVelocity: the setpoint has passed the position and moves at the end velocity; FALSE while 0 % holds it.
     """
 
     EndVelocity = lreal(0.0, "velocity behind the position, u/s, > 0")

@@ -4,12 +4,12 @@ Numbers that the interface knows and this runtime has nothing for are left out; 
 asking for a bool as a number or the other way round, or writing what can only be read.
 """
 
-import enum
 import math
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from motionlayer.command import Command, ErrorId
+from motionlayer.fb._parameter_numbers import MC_AxisParameter
 from motionlayer.fb._settings import Range, Settings
 
 if TYPE_CHECKING:
@@ -17,65 +17,6 @@ if TYPE_CHECKING:
     from motionlayer.nc import AxisConfig
 
 INF: Final = math.inf
-
-
-class MC_AxisParameter(enum.IntEnum):  # noqa: N801 - the name of the interface
-    """Numbers of the parameters."""
-
-    CommandedPosition = 1
-    SWLimitPos = 2
-    SWLimitNeg = 3
-    EnableLimitPos = 4
-    EnableLimitNeg = 5
-    EnablePosLagMonitoring = 6
-    MaxPositionLag = 7
-    MaxVelocitySystem = 8
-    MaxVelocityAppl = 9
-    ActualVelocity = 10
-    CommandedVelocity = 11
-    MaxAccelerationSystem = 12
-    MaxAccelerationAppl = 13
-    MaxDecelerationSystem = 14
-    MaxDecelerationAppl = 15
-    MaxJerkSystem = 16
-    MaxJerkAppl = 17
-    AxisId = 1000
-    AxisVeloManSlow = 1001
-    AxisVeloManFast = 1002
-    AxisVeloMax = 1003
-    AxisAcc = 1004
-    AxisDec = 1005
-    AxisJerk = 1006
-    MaxJerk = 1007
-    AxisMaxVelocity = 1008
-    AxisManualVelocityFast = 1010
-    AxisManualVelocitySlow = 1011
-    AxisJogIncrementForward = 1014
-    AxisJogIncrementBackward = 1015
-    AxisEnMinSoftPosLimit = 1016
-    AxisMinSoftPosLimit = 1017
-    AxisEnMaxSoftPosLimit = 1018
-    AxisMaxSoftPosLimit = 1019
-    AxisEnPositionLagMonitoring = 1020
-    AxisMaxPosLagValue = 1021
-    AxisMaxPosLagFilterTime = 1022
-    AxisEnPositionRangeMonitoring = 1023
-    AxisPositionRangeWindow = 1024
-    AxisEnTargetPositionMonitoring = 1025
-    AxisTargetPositionWindow = 1026
-    AxisTargetPositionMonitoringTime = 1027
-    AxisEnInTargetTimeout = 1028
-    AxisInTargetTimeout = 1029
-    AxisEncoderModuloValue = 1044
-    AxisModuloToleranceWindow = 1045
-    AxisCycleTime = 1050
-    AxisMaximumAcceleration = 1057
-    AxisMaximumDeceleration = 1058
-    AxisTargetPosition = 2000
-    AxisRemainingTimeToGo = 2001
-    AxisRemainingDistanceToGo = 2002
-    NcSafCycleTime = 4000
-    NcSvbCycleTime = 4001
 
 
 class Parameter(NamedTuple):
@@ -169,6 +110,16 @@ def _target_time(described: "AxisConfig", _now: "AxisConfig") -> Range:
     return Range(0.0 if described.monitor.target_window is None else described.monitor.target_time, INF)
 
 
+def _motion_window(described: "AxisConfig", _now: "AxisConfig") -> Range:
+    """The wider the stricter: who moves by more in a cycle than a wide window has moved by more than a narrow one."""
+    least = described.monitor.motion_window
+    return Range(0.0 if least is None else least, INF, low_open=least is None)
+
+
+def _motion_time(described: "AxisConfig", _now: "AxisConfig") -> Range:
+    return _at_most(None if described.monitor.motion_window is None else described.monitor.motion_time)
+
+
 def _tolerance(_described: "AxisConfig", now: "AxisConfig") -> Range:
     return Range(0.0, now.modulo.period)
 
@@ -221,6 +172,12 @@ PARAMETERS: Final[Mapping[MC_AxisParameter, Parameter]] = {
     _P.AxisMaxVelocity: _MAX_V,
     _P.AxisManualVelocityFast: _FAST,
     _P.AxisManualVelocitySlow: _SLOW,
+    _P.AxisCalibrationVelocityForward: value(
+        "velocity of homing, towards the cam", "u/s", "home.velocity", _below_maximum
+    ),
+    _P.AxisCalibrationVelocityBackward: value(
+        "velocity of homing, off the cam", "u/s", "home.sync_velocity", _below_maximum
+    ),
     _P.AxisJogIncrementForward: value("step of inching, positive", "u", "manual.forward", _any_step),
     _P.AxisJogIncrementBackward: value("step of inching, negative", "u", "manual.backward", _any_step),
     _P.AxisEnMinSoftPosLimit: _EN_LOW,
@@ -254,6 +211,13 @@ PARAMETERS: Final[Mapping[MC_AxisParameter, Parameter]] = {
         "monitor.target_timeout",
         _monitor("target_timeout"),
     ),
+    _P.AxisEnMotionMonitoring: switched(
+        "it is watched that the axis moves while its setpoint does", "monitor.motion_window", _motion_window
+    ),
+    _P.AxisMotionMonitoringWindow: value(
+        "the actual position changes by more than this in a cycle", "u", "monitor.motion_window", _motion_window
+    ),
+    _P.AxisMotionMonitoringTime: value("at least once within this time", "s", "monitor.motion_time", _motion_time),
     _P.AxisEncoderModuloValue: value("modulo period", "u", "modulo.period", _any_step),
     _P.AxisModuloToleranceWindow: value(
         "half width of the modulo tolerance window", "u", "modulo.tolerance", _tolerance

@@ -8,7 +8,7 @@ from motionlayer.command import Command, ErrorId
 from motionlayer.fb._axis_block import AxisBlock, EnableBlock, OfAxis
 from motionlayer.fb._axis_ref import AXIS_REF
 from motionlayer.fb._helpers import FULL
-from motionlayer.fb._inputs import boolean, enumeration, lreal, member_of
+from motionlayer.fb._inputs import boolean, enumeration, lreal, member_of, real
 
 
 class MC_Power(OfAxis):  # noqa: N801 - here and below, names of PLCopen
@@ -65,7 +65,8 @@ class MC_Power(OfAxis):  # noqa: N801 - here and below, names of PLCopen
         self._command = command
         self._refused = None if command.error is None else (command.error.id, axis.state)
         bits = nc.ControlDWord.Enable * enable | nc.ControlDWord.FeedEnablePlus * positive
-        ref.PlcToNc.ControlDWord = bits | nc.ControlDWord.FeedEnableMinus * negative
+        kept = ref.PlcToNc.ControlDWord & nc.ControlDWord.HomingSensor
+        ref.PlcToNc.ControlDWord = kept | bits | nc.ControlDWord.FeedEnableMinus * negative
 
     def _disable(self, axis: nc.Axis) -> nc.AxisCommand:
         mode = member_of(nc.BufferMode, self.BufferMode)
@@ -74,9 +75,9 @@ class MC_Power(OfAxis):  # noqa: N801 - here and below, names of PLCopen
         return axis.disable(buffer_mode=mode)
 
     def _set_override(self, ref: AXIS_REF) -> ErrorId | None:
-        value = self.Override
-        if value == self._override:
+        if self.Override == self._override:
             return None
+        value = real(self, "Override")
         if not 0.0 <= value <= 100.0:
             return ErrorId.PARAMETER
         ref.axis.set_override(value / 100.0)
@@ -105,10 +106,12 @@ class MC_SetOverride(EnableBlock):  # noqa: N801
         return self.Valid
 
     def _act(self) -> ErrorId | None:
-        value, ref = self.VelFactor, self._ref
+        ref = self._ref
+        if self.VelFactor == ref.axis.override:
+            return None
+        value = real(self, "VelFactor")
         if not 0.0 <= value <= 1.0:
             return ErrorId.PARAMETER
-        if value != ref.axis.override:
-            ref.axis.set_override(value)
-            ref.PlcToNc.Override = round(value * FULL)
+        ref.axis.set_override(value)
+        ref.PlcToNc.Override = round(value * FULL)
         return None

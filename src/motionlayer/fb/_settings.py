@@ -109,4 +109,7 @@ def _fitting(config: "AxisConfig") -> "AxisConfig":
     most, manual = config.maximum, config.manual
     usual = type(most)(*(min(pair) for pair in zip(config.default, most, strict=True)))
     slower = manual._replace(slow=min(manual.slow, most.velocity), fast=min(manual.fast, most.velocity))
-    return config._replace(default=usual, manual=slower)
+    home = config.home._replace(
+        velocity=min(config.home.velocity, most.velocity), sync_velocity=min(config.home.sync_velocity, most.velocity)
+    )
+    return config._replace(default=usual, manual=slower, home=home)

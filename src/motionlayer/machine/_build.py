@@ -6,7 +6,8 @@ from typing import NamedTuple
 from motionlayer.command import Ledger
 from motionlayer.drive import Fault, IdealDrives, ReferenceSwitch, Servo, ServoDrives, ZeroPulse, ZeroPulses
 from motionlayer.event import EventLog
-from motionlayer.machine._description import AxisDescription, Description
+from motionlayer.machine._axis_description import AxisDescription, ModuloDescription
+from motionlayer.machine._description import Description
 from motionlayer.nc import (
     ROW_PIECES,
     Axis,
@@ -25,6 +26,9 @@ from motionlayer.runtime import Stage, Step
 from motionlayer.store import Q, Store
 
 SIGN = {"positive": 1.0, "negative": -1.0}
+
+SEARCH_TIME = 600.0
+"""Seconds of a homing's search that bound its way where nothing else does."""
 
 
 class Parts(NamedTuple):
@@ -83,8 +87,13 @@ def _axis_config(name: str, entry: AxisDescription) -> AxisConfig:
             entry.manual.backward,
         ),
         monitor=MonitorConfig(**dict(entry.monitor)),
-        modulo=ModuloConfig(entry.modulo.period, entry.modulo.tolerance),
+        modulo=_modulo_config(entry.modulo),
+        simulated=entry.drive.kind == "ideal",
     )
+
+
+def _modulo_config(entry: ModuloDescription | None) -> ModuloConfig:
+    return ModuloConfig() if entry is None else ModuloConfig(entry.period, entry.tolerance, described=True)
 
 
 def _home_config(entry: AxisDescription) -> HomeConfig:
@@ -96,9 +105,16 @@ def _home_config(entry: AxisDescription) -> HomeConfig:
         direction=direction,
         sync_velocity=home.velocity if home.sync_velocity is None else home.sync_velocity,
         sync_direction=-direction if home.sync_direction is None else SIGN[home.sync_direction],
-        travel=math.inf if home.travel is None else home.travel,
+        travel=_longest_search(entry) if home.travel is None else home.travel,
         pulse_distance=home.pulse_distance,
     )
+
+
+def _longest_search(entry: AxisDescription) -> float:
+    """Return the longest way of a search that names none: a switch may lie outside the software limits."""
+    if entry.software_limit_min is None or entry.software_limit_max is None:
+        return SEARCH_TIME * entry.home.velocity
+    return 2.0 * (entry.software_limit_max - entry.software_limit_min)
 
 
 def _zero_pulses(store: Store, description: Description) -> ZeroPulses | None:
@@ -171,4 +187,5 @@ def _groups(description: Description) -> list[ErrorGroup]:
 def _switch(entry: AxisDescription) -> ReferenceSwitch | None:
     if entry.home.switch is None:
         return None
-    return ReferenceSwitch(entry.home.switch, SIGN[entry.home.direction])
+    width = math.inf if entry.home.switch_width is None else entry.home.switch_width
+    return ReferenceSwitch(entry.home.switch, SIGN[entry.home.direction], width)

@@ -5,7 +5,7 @@ from typing import Any, Literal
 from pydantic import Field, SerializerFunctionWrapHandler, ValidationInfo, field_validator, model_serializer
 from pydantic_core import PydanticCustomError
 
-from motionlayer.machine._fields import Acceleration, Duration, Positive, Seconds, Table, Text, Width, Window
+from motionlayer.machine._fields import Acceleration, Duration, Positive, Seconds, Table, Text, Velocity, Width, Window
 
 MOST_CYCLES = 1000
 """Most cycles of a dead time, a ready delay or a patience."""
@@ -94,6 +94,23 @@ class MonitorDescription(Table):
     )
     software_limits: bool = Field(
         default=False, description="Watch the actual position against the software limits, with `lag` as margin."
+    )
+    velocity_lag: Velocity | None = Field(
+        default=None,
+        description="Largest velocity lag (u/s), > 0; more of it for longer than velocity_lag_time is an error.",
+        json_schema_extra={"x-unit": "u/s"},
+    )
+    velocity_lag_time: Seconds = Field(
+        default=0.0, description="For how long the velocity lag may be larger (s); a single cycle never counts."
+    )
+    motion_window: Window | None = Field(
+        default=None,
+        description="While the setpoint moves, the actual position changes by more than this (u), > 0, in at least "
+        "one cycle of every motion_time; else it is an error.",
+        json_schema_extra={"x-unit": "u"},
+    )
+    motion_time: Duration = Field(
+        default=0.5, description="Longest time without a cycle of motion (s), > 0; see motion_window."
     )
 
     @field_validator("target_timeout")

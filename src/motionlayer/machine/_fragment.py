@@ -21,12 +21,14 @@ class Fragment:
         text: what the lines are found in; empty for data.
         included: the places that led to it, the nearest first, each like `cell.toml:12 as "S1_"`; empty for the
             machine file itself.
+        prefix: what names that it defines begin with in the machine.
     """
 
     file: str | None
     data: dict[str, Any]
     text: str = ""
     included: tuple[str, ...] = ()
+    prefix: str = ""
 
     @property
     def chain(self) -> tuple[str, ...]:
@@ -69,7 +71,7 @@ class Origin(NamedTuple):
             field=field_text(self.path),
             value=value,
             allowed=problem.allowed,
-            hint=problem.hint,
+            hint=problem.hint.replace(f"did you mean {self.fragment.prefix}", "did you mean "),
             problem=problem.problem,
             included=self.fragment.chain,
         )

@@ -2,8 +2,9 @@
 
 import os
 import warnings
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from pydantic import ValidationError
 
@@ -11,10 +12,16 @@ from motionlayer.machine._description import Description
 from motionlayer.machine._errors import MachineError, OldName
 from motionlayer.machine._fragment import Fragment, Origin, Report, in_order
 from motionlayer.machine._modules import flattened
+from motionlayer.machine._names import SECTIONS
 from motionlayer.machine._problem import Problem
 from motionlayer.machine._read import parse, read_text
 from motionlayer.machine._relations import format_problem, relation_problems
+from motionlayer.machine._units import in_units
 from motionlayer.machine._words import model_problems
+
+_MODULE_HINT: Final = (
+    "a module has no name, and is checked together with the machine that includes it: motionlayer check MACHINE"
+)
 
 
 def load_description(path: str | os.PathLike[str]) -> Description:
@@ -70,6 +77,7 @@ def _checked(fragment: Fragment) -> Description:
         flat = flattened(fragment, report)
         if not report.unread:
             problems, description = _check(flat.data, fragment.folder)
+            problems = [in_units(one, flat.data) for one in problems]
             report.findings += [flat.origin(one.path).finding(one) for one in problems]
     if report.findings or description is None:
         raise MachineError(in_order(report.findings, fragment.file))
@@ -87,4 +95,10 @@ def _check(data: dict[str, Any], folder: Path) -> tuple[list[Problem], Descripti
     except ValidationError as error:
         errors = error.errors(include_url=False)
         problems += model_problems(one for one in errors if one["loc"] != ("format",))
-    return [*problems, *relation_problems(data, folder)], description
+    problems += relation_problems(data, folder)
+    return [replace(one, hint=_MODULE_HINT) if _of_a_module(one, data) else one for one in problems], description
+
+
+def _of_a_module(problem: Problem, data: dict[str, Any]) -> bool:
+    """Tell whether a name is missing because the file may be a module: it holds nothing but what a module may."""
+    return problem.path == ("name",) and problem.problem == "missing" and {*data} <= {"format", *SECTIONS}

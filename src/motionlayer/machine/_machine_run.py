@@ -19,7 +19,7 @@ from motionlayer.machine._log_description import LogDescription
 from motionlayer.machine._logging import Logging
 from motionlayer.machine._machine import Machine
 from motionlayer.machine._outside import EMERGENCY_STOP, INJECT, pack_fault, unpack_fault
-from motionlayer.machine._persistence import Persistence
+from motionlayer.machine._persistence import Persistence, load_kept
 from motionlayer.machine._programs import Loaded, load_program, sources_of
 from motionlayer.machine._resetting import ResettableRun
 from motionlayer.machine._tracing import Tracing
@@ -27,7 +27,7 @@ from motionlayer.record import End, Trace
 from motionlayer.runtime import LATE, PATIENCE, Lateness, Program, Stage, Step, TaskConfig
 
 if TYPE_CHECKING:
-    from motionlayer.nc import Axis, AxisCommand
+    from motionlayer.nc import Axis
 
 
 V = TypeVar("V")
@@ -67,6 +67,7 @@ class MachineRun(ResettableRun):
 
     Raises:
         LogError: the message files cannot be written.
+        MachineError: the file of persistent parameters means nothing.
         ProgramError: a program of the machine description cannot be loaded.
         TraceError: the trace file cannot be written.
     """
@@ -86,6 +87,8 @@ class MachineRun(ResettableRun):
         loaded = [load_program(source) for source in sources_of(machine)] if programs is None else programs
         self.machine = machine
         self.seed = self._first_seed = machine.description.seed if seed is None else seed
+        persistent = machine.description.persistent_file
+        kept = None if persistent is None else load_kept(machine.folder / persistent, machine.description.axis)
         parts = build(machine.description, self.seed)
         self.axes: Mapping[str, Axis] = Axes(parts.axes)
         """The axes by name."""
@@ -123,11 +126,7 @@ class MachineRun(ResettableRun):
         self.mailbox.register(LATE, Lateness(parts.ledger, parts.events, self._brake))
         self.mailbox.register(INJECT, self._injected)
         self.mailbox.register(EMERGENCY_STOP, self._emergency_stopped)
-        persistent = machine.description.persistent_file
-        self._persistence: Persistence | None = None
-        if persistent is not None:
-            file = machine.folder / persistent
-            self._persistence = Persistence(file, lambda: self.axis_refs, self.axes, self.mailbox)
+        self._persistence = None if kept is None else Persistence(kept, lambda: self.axis_refs, self.mailbox)
         for program in loaded:
             program.start(self)
 
@@ -243,13 +242,14 @@ class MachineRun(ResettableRun):
         self.close()
 
     def _abandon(self, program: Program) -> None:
-        """Halt what a failed program was moving; the run goes on until it rests."""
-        owned = [axis for axis in self.axes.values() if axis.command is not None and axis.command.owner is program]
-        brakes = [brake for brake in (axis.abandon() for axis in owned) if brake is not None]
-        if brakes:
-            self.start(_rest(brakes), f"halt after {program.name}")
+        """Brake what a failed program was moving; the run goes on until it rests."""
+        for axis in self.axes.values():
+            if axis.command is not None and axis.command.owner is program:
+                axis.abandon()
 
+    def _braking(self) -> bool:
+        return any(axis.braking for axis in self.axes.values())
 
-async def _rest(brakes: "list[AxisCommand]") -> None:
-    for brake in brakes:
-        await brake.settled()
+    def _left_alone(self) -> None:
+        for axis in self.axes.values():
+            axis.left_alone()

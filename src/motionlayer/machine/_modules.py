@@ -79,7 +79,7 @@ def _read(origin: Origin, asked: ModuleDescription, report: Report, chain: tuple
     """Return a module file; what is wrong with its place is reported there, what is wrong in it, in itself."""
     at = f'{origin.place} as "{asked.prefix}"' if asked.prefix else origin.place
     file = str(origin.fragment.folder / asked.file)
-    empty = Fragment(file, {}, included=(at, *origin.fragment.included))
+    empty = Fragment(file, {}, included=(at, *origin.fragment.included), prefix=origin.fragment.prefix + asked.prefix)
     problem = _place_problem(empty, chain)
     if problem:
         _refuse(origin, report, Problem(("file",), value_text(asked.file), problem=problem))

@@ -10,9 +10,9 @@ a block for putting into service, not for every cycle.
 
 import os
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Final
+from typing import Final, NamedTuple
 
 from motionlayer.fb import AXIS_REF, PARAMETERS, MC_AxisParameter
 from motionlayer.machine._errors import Finding, MachineError
@@ -25,30 +25,47 @@ CHANNEL: Final = "persistent_parameters"
 HEAD: Final = "# Written by MC_WriteParameterPersistent; delete the file to go back to the machine file.\n"
 
 
+class Kept(NamedTuple):
+    """What was in the file when the run was made.
+
+    Attributes:
+        file: which file.
+        text: of the file.
+        values: per axis and parameter.
+    """
+
+    file: Path
+    text: str
+    values: dict[str, dict[str, float]]
+
+
+def load_kept(file: Path, names: Iterable[str]) -> Kept:
+    """Read the file; there is nothing in one that does not exist.
+
+    Raises:
+        MachineError: it cannot be read, or holds something else than parameters of the axes with these names.
+    """
+    text = _read(file)
+    return Kept(file, text, _checked(file, text, list(names)))
+
+
 class Persistence:
     """The persistent parameters of a run.
 
     Args:
-        file: where they are; none yet where it does not exist.
+        kept: what the file holds.
         refs: returns the axes.
-        names: of the axes.
         mailbox: by which they reach the run.
-
-    Raises:
-        MachineError: the file cannot be read, or holds something else than parameters of these axes.
     """
 
-    def __init__(
-        self, file: Path, refs: Callable[[], Mapping[str, AXIS_REF]], names: Mapping[str, Any], mailbox: Mailbox
-    ) -> None:
-        self._file = file
+    def __init__(self, kept: Kept, refs: Callable[[], Mapping[str, AXIS_REF]], mailbox: Mailbox) -> None:
+        self._file = kept.file
+        self._values = kept.values
         self._refs = refs
         self._mailbox = mailbox
-        text = _read(file)
-        self._values: dict[str, dict[str, float]] = _checked(file, text, names)
         mailbox.register(CHANNEL, self._apply)
-        if self._values:
-            mailbox.post(CHANNEL, text.encode())
+        if kept.values:
+            mailbox.post(CHANNEL, kept.text.encode())
 
     def keep(self, axis: str, name: str, value: float) -> str:
         """Add a parameter to the file; return why that was not possible, "" if it was."""
@@ -84,7 +101,7 @@ def _read(file: Path) -> str:
         raise MachineError([_finding(file, "", None, "a readable text file", str(error))]) from error
 
 
-def _checked(file: Path, text: str, names: Mapping[str, Any]) -> dict[str, dict[str, float]]:
+def _checked(file: Path, text: str, names: Sequence[str]) -> dict[str, dict[str, float]]:
     """Return the values of a file.
 
     Raises:
@@ -100,7 +117,7 @@ def _checked(file: Path, text: str, names: Mapping[str, Any]) -> dict[str, dict[
     return data
 
 
-def _problems(file: Path, axis: str, values: object, names: Mapping[str, Any]) -> list[Finding]:
+def _problems(file: Path, axis: str, values: object, names: Sequence[str]) -> list[Finding]:
     if axis not in names or not isinstance(values, dict):
         return [_finding(file, axis, None, f"the table of an axis: {', '.join(names)}")]
     found = []

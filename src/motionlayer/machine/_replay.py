@@ -95,8 +95,8 @@ def replay(
         _play(run, trace, part, watch)
     finally:
         digest = run.close()
+    compared, text = _compared(trace, run, digest, part, others=bool(notes))
     notes += installation_notes(trace.header, header(machine, run.seed, loaded))
-    compared, text = _compared(trace, run, digest, part)
     return Replay(not text, text, run.tick, compared, tuple(notes))
 
 
@@ -134,15 +134,15 @@ def _before_losses(trace: Trace, part: _Part) -> _Part:
     return _Part(count, count, f"up to tick {count}, where records are missing; inputs may be among them")
 
 
-def _compared(trace: Trace, run: Simulation, digest: str, part: _Part) -> tuple[str, str]:
-    """Return what was compared, and the first difference, "" if there is none."""
+def _compared(trace: Trace, run: Simulation, digest: str, part: _Part, *, others: bool) -> tuple[str, str]:
+    """Return what was compared, and the first difference, "" if there is none; `others` ran than were recorded."""
     whole = bool(trace.hash) and not part.what
     if whole and trace.hash == digest:
         return f"the hash, {digest}", ""
     text = "the trace holds nothing beside its hash"
     if trace.signals:
         found = difference(trace, run.trace, end=part.end)
-        text = "" if found is None else _told(found, trace)
+        text = "" if found is None else _told(found, trace, guess=not others)
     if whole:
         text = text or "of what the trace holds beside its hash nothing differs"
         return "the hash", f"{text}; hash {trace.hash} in the trace, {digest} in the replay"
@@ -177,10 +177,10 @@ def _step_to(run: Simulation, tick: int, watch: Callable[[int], None]) -> None:
         watch(run.tick)
 
 
-def _told(found: Difference, trace: Trace) -> str:
-    """Return a difference in words, with what a script may have to do with it."""
+def _told(found: Difference, trace: Trace, *, guess: bool) -> str:
+    """Return a difference in words, with what a script may have to do with it where nothing else explains it."""
     text = f"tick {found.tick} ({found.tick * trace.base_cycle:.9g} s): {found.text}"
-    if found.missing is not None and found.missing.kind is Kind.ACCEPTED:
+    if guess and found.missing is not None and found.missing.kind is Kind.ACCEPTED:
         text += (
             "; a script may have started it: what a script does between the ticks of a run is not recorded, "
             "programs are given in `replay(trace, programs=[...])` or with --program"

@@ -20,6 +20,18 @@ from motionlayer.nc._config import (
     ManualConfig,
     ModuloConfig,
 )
+from motionlayer.nc._home_keywords import HomeKeywords
+from motionlayer.nc._homing import HomeCommand
+from motionlayer.nc._keywords import (
+    BrakeKeywords,
+    BufferKeywords,
+    ContinuousKeywords,
+    EndlessKeywords,
+    HaltKeywords,
+    JogKeywords,
+    MoveKeywords,
+    RampKeywords,
+)
 from motionlayer.nc._monitors import MonitorConfig
 from motionlayer.nc._motion import AxisCommand, HeldCommand
 from motionlayer.nc._planning import ROW_PIECES
@@ -41,20 +53,30 @@ __all__ = [
     "AxisRefs",
     "AxisStage",
     "AxisState",
+    "BrakeKeywords",
+    "BufferKeywords",
     "BufferMode",
     "Calibration",
+    "ContinuousKeywords",
     "ControlDWord",
     "Direction",
+    "EndlessKeywords",
     "ErrorGroup",
     "GroupReaction",
+    "HaltKeywords",
     "HeldCommand",
+    "HomeCommand",
     "HomeConfig",
+    "HomeKeywords",
     "HomingMode",
+    "JogKeywords",
     "JogMode",
     "ManualConfig",
     "ModuloConfig",
     "MonitorConfig",
+    "MoveKeywords",
     "OpModeDWord",
+    "RampKeywords",
     "Reaction",
     "StateDWord",
     "stopping",

@@ -11,6 +11,7 @@ from motionlayer.nc._override import STEPS
 from motionlayer.nc._positioning import AxisPositioning
 from motionlayer.nc._power import AxisPower
 from motionlayer.nc._referencing import AxisReferencing
+from motionlayer.nc._states import AxisState
 from motionlayer.store import Q, Watch
 
 
@@ -60,7 +61,11 @@ class Axis(AxisPower, AxisPositioning, AxisEndless, AxisBraking, AxisReferencing
         self._accept(command, text)
         self.config = config
         self._table[[Q.MIN_P, Q.MAX_P], self._column] = config.limit_min, config.limit_max
-        self.configured(self._column)
+        if self._state in (AxisState.DISABLED, AxisState.STANDSTILL) and self._job is None:
+            commanded = self._commanded
+            self._set_plan(self.set_position)  # what rests does so within the new maxima
+            self._commanded = commanded
+        self._configured(self._column)
         self._end(command)
         return command
 

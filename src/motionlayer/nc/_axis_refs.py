@@ -20,13 +20,17 @@ DEFAULT_MODULO: Final = 360.0
 
 
 def op_mode(config: AxisConfig) -> OpModeDWord:
-    """Return which monitors of an axis are on."""
+    """Return which monitors of an axis are on, and of what kind it is."""
     monitor = config.monitor
     watched = {
         OpModeDWord.PositionAreaMonitoring: monitor.range_window is not None,
         OpModeDWord.TargetPositionMonitoring: monitor.target_window is not None,
         OpModeDWord.PEHTimeMonitoring: monitor.target_timeout is not None,
+        OpModeDWord.MotionMonitoring: monitor.motion_window is not None,
+        OpModeDWord.Modulo: config.modulo.described,
+        OpModeDWord.SimulationAxis: config.simulated,
         OpModeDWord.PositionLagMonitoring: monitor.lag is not None,
+        OpModeDWord.VeloLagMonitoring: monitor.velocity_lag is not None,
         OpModeDWord.SoftLimitMinMonitoring: math.isfinite(config.limit_min),
         OpModeDWord.SoftLimitMaxMonitoring: math.isfinite(config.limit_max),
     }

@@ -30,7 +30,7 @@ class AxisBase:
         self.config = config
         self.name = config.name
         self.ledger = ledger
-        self.configured: Callable[[int], None] = _nobody
+        self._configured: Callable[[int], None] = _nobody
         """Told the column, when another configuration has come into force."""
         self._error: MotionError | None = None
         self._column = column

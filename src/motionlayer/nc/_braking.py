@@ -1,10 +1,11 @@
 """Coming to rest."""
 
 import math
+from typing import Unpack
 
-from motionlayer.nc._config import BufferMode
-from motionlayer.nc._motion import AxisCommand, HeldCommand, Job, JobKind
-from motionlayer.nc._positioning import buffering_of
+from motionlayer.event import Kind, Level
+from motionlayer.nc._keywords import BrakeKeywords, HaltKeywords, checked
+from motionlayer.nc._motion import BRAKES, Asked, AxisCommand, HeldCommand, Job, JobKind
 from motionlayer.nc._states import TRANSITIONS, AxisEvent, AxisState
 from motionlayer.nc._submission import AxisSubmission
 from motionlayer.profile import Limits
@@ -13,51 +14,55 @@ from motionlayer.profile import Limits
 class AxisBraking(AxisSubmission):
     """Halt and stop; the arguments are those of `AxisBase`."""
 
-    def halt(
-        self,
-        *,
-        deceleration: float | None = None,
-        jerk: float | None = None,
-        buffer_mode: BufferMode = BufferMode.ABORTING,
-        blending_position: float | None = None,
-    ) -> AxisCommand:
+    @property
+    def under_way(self) -> bool:
+        """A motion has not come to its end: the setpoint moves, or will."""
+        return self._job is not None and not self._job.arrived
+
+    @property
+    def braking(self) -> bool:
+        """The setpoint comes to rest by a halt, a stop, an error or a loss of power, and nothing follows."""
+        job = self._job
+        ends = job is not None and not job.arrived and job.kind in BRAKES
+        return ends and self._homing is None and self._follower is None
+
+    def halt(self, **keywords: Unpack[HaltKeywords]) -> AxisCommand:
         """Brake to rest; another command may take over at any time.
 
-        Weaker dynamics than those of the running command are raised to them.
+        The mode BUFFERED waits for rest. BLENDING_LOW and BLENDING_NEXT keep the target of the running command and
+        brake there with these dynamics; BLENDING_PREVIOUS and BLENDING_HIGH go on to it and begin to brake there.
 
         Args:
-            deceleration: u/s²; that of the running command where left out.
-            jerk: u/s³; the same.
-            buffer_mode: ABORTING brakes at once, BUFFERED waits for rest. BLENDING_LOW and BLENDING_NEXT keep the
-                target of the running command and brake there with these dynamics; BLENDING_PREVIOUS and
-                BLENDING_HIGH go on to that target and begin to brake there.
-            blending_position: see `move_absolute`.
+            **keywords: see `HaltKeywords`.
 
         Raises:
-            TypeError: an argument is not a number, or the mode not a `BufferMode`.
+            TypeError: a keyword is unknown, or of another type.
         """
+        chosen = checked("halt", HaltKeywords, keywords)
         command = AxisCommand(self, "halt")
-        buffering = buffering_of(buffer_mode, blending_position)
-        limits = self._braking(command, deceleration, jerk)
+        limits = self._braking(command, chosen.asked)
         if limits is not None:
-            job = Job(JobKind.HALT, math.nan, limits, command)
-            self._submit(command, AxisEvent.HALT, "halt()", lambda _start: job, buffering)
+            job = Job(JobKind.HALT, math.nan, limits, command, monitored=bool(chosen.monitored))
+            self._submit(command, AxisEvent.HALT, "halt()", lambda _start: job, chosen.buffering)
         return command
 
-    def stop(self, *, deceleration: float | None = None, jerk: float | None = None, hold: bool = False) -> HeldCommand:
-        """Brake to rest; until then no other command is taken. Dynamics as `halt`.
+    def stop(self, *, hold: bool = False, **keywords: Unpack[BrakeKeywords]) -> HeldCommand:
+        """Brake to rest; until then no other command is taken.
 
         Args:
-            deceleration: see `halt`.
-            jerk: see there.
             hold: keep the axis locked at rest, until `command.release()` or a `reset()`. `command.at_target` tells
                 that it rests.
+            **keywords: see `BrakeKeywords`.
+
+        Raises:
+            TypeError: a keyword is unknown, or of another type.
         """
-        command = HeldCommand(self, "stop")
+        chosen = checked("stop", BrakeKeywords, keywords)
+        command = HeldCommand(self, "stop", self._released)
         command.held = hold
-        limits = self._braking(command, deceleration, jerk)
+        limits = self._braking(command, chosen.asked)
         if limits is not None:
-            job = Job(JobKind.STOP, math.nan, limits, command)
+            job = Job(JobKind.STOP, math.nan, limits, command, monitored=bool(chosen.monitored))
             self._submit(command, AxisEvent.STOP, "stop()", lambda _start: job)
         return command
 
@@ -85,13 +90,20 @@ class AxisBraking(AxisSubmission):
             self.command.release()
         return self.command or self._power
 
-    def _braking(self, command: AxisCommand, deceleration: float | None, jerk: float | None) -> Limits | None:
+    def left_alone(self) -> None:
+        """Warn if the axis moves on: no program is left to lead it."""
+        if self.under_way and not self.braking:
+            what = self.command.name if self.command is not None else "a motion"
+            text = f"still moves: {what} goes on, and the last program has ended; await it, or halt() before"
+            self._tell(Level.WARNING, Kind.MESSAGE, text)
+
+    def _braking(self, command: AxisCommand, asked: Asked) -> Limits | None:
         """Return the dynamics of a brake; None if they are refused."""
-        asked = self._dynamics(command, (None, None, deceleration, jerk))
-        if asked is None:
+        limits = self._dynamics(command, asked)
+        if limits is None:
             return None
-        running = self._running()
+        running, (_, _, deceleration, jerk) = self._running(), asked
         return running._replace(
-            deceleration=max(running.deceleration, asked.deceleration if deceleration is not None else 0.0),
-            jerk=max(running.jerk, asked.jerk if jerk is not None else 0.0),
+            deceleration=max(running.deceleration, limits.deceleration if deceleration is not None else 0.0),
+            jerk=max(running.jerk, limits.jerk if jerk is not None else 0.0),
         )

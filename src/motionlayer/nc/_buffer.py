@@ -6,57 +6,23 @@ is function-blocks 2.8, and record 25 where that leaves a choice. A change of th
 """
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from motionlayer.command import Command, ErrorId, Ledger, MotionError
 from motionlayer.event import EventLog
 from motionlayer.nc._axis_ref import StateDWord
 from motionlayer.nc._config import AxisConfig, BufferMode
+from motionlayer.nc._follower import Buffering, Follower
+from motionlayer.nc._joints import joint_speeds
 from motionlayer.nc._limits import bad_target
 from motionlayer.nc._motion import DEFINITE, SCALED, AxisCommand, Job, JobKind, Refusal
 from motionlayer.nc._planning import AxisPlanning
-from motionlayer.nc._ways import Way, arrival, joint_speeds, scaled, through, way_of
+from motionlayer.nc._ways import Point, Way, arrival, scaled, through, way_of
 from motionlayer.profile import PlanError
 from motionlayer.store import JOB_BRAKE, JOB_COMPOUND, Ended, Q, Store
 
 if TYPE_CHECKING:
     from motionlayer.nc._monitors import Monitors
-
-
-class Buffering(NamedTuple):
-    """When a command begins that is given while another one runs.
-
-    Attributes:
-        mode: see `BufferMode`.
-        position: of the joint, where a blending mode shall not use the target of the running command, u.
-    """
-
-    mode: BufferMode = BufferMode.ABORTING
-    position: float | None = None
-
-    @property
-    def blends(self) -> bool:
-        """The running command is handed over without rest."""
-        return self.mode not in (BufferMode.ABORTING, BufferMode.BUFFERED)
-
-
-AT_ONCE = Buffering()
-
-
-@dataclass(slots=True)
-class Follower:
-    """What waits for the running job.
-
-    Attributes:
-        job: the follower.
-        buffering: how it follows.
-        way: its plan, where it is appended; None where it waits for more than the setpoint of the running job.
-    """
-
-    job: Job
-    buffering: Buffering
-    way: Way | None = None
 
 
 class AxisBuffer(AxisPlanning):
@@ -65,7 +31,7 @@ class AxisBuffer(AxisPlanning):
     def __init__(self, config: AxisConfig, column: int, store: Store, ledger: Ledger, events: EventLog) -> None:
         super().__init__(config, column, store, ledger, events)
         self._follower: Follower | None = None
-        self.monitors: Monitors | None = None
+        self._monitors: Monitors | None = None
 
     @property
     def buffered(self) -> AxisCommand | None:
@@ -119,55 +85,84 @@ class AxisBuffer(AxisPlanning):
         self._accept(command, text)
         self._set_follower(follower)
         if self._hands_over(running, follower):
-            self._chain(running, follower, ways)
+            self._chain(running, follower, *ways)
 
     def _set_follower(self, follower: Follower | None) -> None:
         """Let a command wait, or nothing any more."""
         self._follower = follower
         self._flag(StateDWord.CmdBuffered, on=follower is not None)
 
-    def _fitted(self, running: Job, follower: Follower) -> tuple[Way, Way] | Refusal:
-        """Plan both jobs, or tell why one cannot follow the other; what override 0 holds is judged at 1."""
-        job, end, here = follower.job, self._end_of(running), self.set_position
+    def _fitted(self, running: Job, follower: Follower) -> tuple[Way | None, Way] | Refusal:
+        """Plan both jobs, or tell why one cannot follow the other; what override 0 holds is judged at 1.
+
+        Returns:
+            Both ways; None for the first where what the axis follows leads to the joint already.
+        """
+        job, end, here, factor = follower.job, self._end_of(running), self.set_position, self.override or 1.0
         if follower.buffering.blends and job.kind is JobKind.POSITION and job.target == end:
             return Refusal(ErrorId.SAME_END_POSITION, f"target = {end} {self.config.unit}, as of the running command")
         refusal = bad_target(self.config, job, end)
         if refusal is not None:
             return refusal
         try:
-            ways = self._linked(running, follower, self.override or 1.0)
+            first = None if self._rests_at_joint(running, follower) else self._first(running, follower, factor)
+            if isinstance(first, Refusal):
+                return first
+            start = Point(end, 0.0, 0.0) if first is None else first.end
+            second = way_of(self.config, job, start, factor)
         except PlanError as error:
             return Refusal(ErrorId.INTERNAL, str(error))
-        if isinstance(ways, Refusal):
-            return ways
-        first, second = ways
-        return self._objection(running, first, here) or self._objection(job, second, first.end.p) or ways
+        objection = self._objection(running, first, here) if first is not None else None
+        objection = objection or self._objection(job, second, start.p)
+        if objection is not None:
+            return objection
+        held = running.kind is JobKind.HALT and self.override == 0.0  # a halt is not held, what follows it is
+        return first, way_of(self.config, job, start, 0.0) if held else second
 
-    def _linked(self, running: Job, follower: Follower, factor: float) -> tuple[Way, Way] | Refusal:
-        """Plan both jobs under an override > 0, so that they meet at their joint.
+    def _rests_at_joint(self, running: Job, follower: Follower) -> bool:
+        """Tell whether what the axis follows comes to rest at the joint, as the follower wants it.
+
+        Then it goes on as it is. A plan from the midst of a brake would be the same but for the rounding of its start,
+        and there the time grows with the third root of a way: the last bit of a position costs microseconds.
+        """
+        limits, table, column = scaled(running, self.override), self._table, self._column
+        if self._held or table[Q.END_TIME, column] == math.inf:
+            return False
+        if tuple(table[Q.MAX_V : Q.MAX_J + 1, column].tolist()) != limits:
+            return False
+        if running.kind is JobKind.HALT or not follower.buffering.blends:
+            return True
+        place, _, asked, _ = self._meeting(running, follower, self.override)
+        return asked == 0.0 and place == running.target
+
+    def _meeting(self, running: Job, follower: Follower, factor: float) -> tuple[float, float, float, float]:
+        """Return where two blended jobs meet, in which direction, the speed asked for there, and the highest one."""
+        limits, buffering = scaled(running, factor), follower.buffering
+        place = running.target if buffering.position is None else buffering.position
+        heading = arrival(self._here, running.target, limits)
+        speeds = joint_speeds(self.config, buffering.mode, limits, heading, place, follower.job, factor)
+        return place, heading, *speeds
+
+    def _first(self, running: Job, follower: Follower, factor: float) -> Way | Refusal:
+        """Plan the running job up to its joint, under an override > 0.
 
         Raises:
-            PlanError: a plan failed its check.
+            PlanError: the plan failed its check.
         """
-        config, job, buffering = self.config, follower.job, follower.buffering
-        if running.kind is JobKind.HALT or not buffering.blends:
-            first = way_of(config, running, self._here, factor)
-        else:
-            limits = scaled(running, factor)
-            place = running.target if buffering.position is None else buffering.position
-            heading = arrival(self._here, running.target, limits)
-            asked, highest = joint_speeds(config, buffering.mode, limits, heading, place, job, factor)
-            reached = through(self._here, place, heading, asked, limits, highest)
-            if reached is None:
-                detail = f"at {place} at most {highest} {config.unit}/s are possible for the new one"
-                return Refusal(ErrorId.DISTANCE_TOO_SHORT, detail)
-            first = reached
-        return first, way_of(config, job, first.end, factor)
+        if running.kind is JobKind.HALT or not follower.buffering.blends:
+            return way_of(self.config, running, self._here, factor)
+        place, heading, asked, highest = self._meeting(running, follower, factor)
+        reached = through(self._here, place, heading, asked, scaled(running, factor), highest)
+        if reached is not None:
+            return reached
+        detail = f"at {place} at most {highest} {self.config.unit}/s are possible for the new one"
+        return Refusal(ErrorId.DISTANCE_TOO_SHORT, detail)
 
-    def _chain(self, running: Job, follower: Follower, ways: tuple[Way, Way]) -> None:
-        """Put both jobs into the row of the axis."""
-        first, follower.way = ways
-        self._adopt(running, first)
+    def _chain(self, running: Job, follower: Follower, first: Way | None, second: Way) -> None:
+        """Put both jobs into the row of the axis; None for the first leaves what is in it."""
+        follower.way = second
+        if first is not None:
+            self._adopt(running, first)
         self._store.append(self._column, follower.way.profile.pieces)
         self._table[Q.JOB_KIND, self._column] = JOB_COMPOUND if running.kind in SCALED else JOB_BRAKE
 
@@ -175,8 +170,11 @@ class AxisBuffer(AxisPlanning):
         """Tell whether the end of the setpoint is all that a follower waits for: not for the actual position too."""
         if running.arrived or self._held:
             return False
-        monitored = self.monitors is not None and self.monitors.waits_for_target(self._column)
-        return not (monitored and running.kind is JobKind.POSITION and not follower.buffering.blends)
+        return follower.buffering.blends or not self._has_window(running)
+
+    def _has_window(self, job: Job) -> bool:
+        """Tell whether a job ends only when the actual position has come into its window."""
+        return job.monitored and self._monitors is not None and self._monitors.waits_for_target(self._column)
 
     def _went_on(self, ended: Ended) -> None:
         """Take up that the running job handed over to its follower inside the last cycle."""
@@ -216,10 +214,10 @@ class AxisBuffer(AxisPlanning):
         job, follower = self._job, self._follower
         assert job is not None
         if follower is not None and self._hands_over(job, follower):
-            ways = self._linked(job, follower, self.override)
-            if isinstance(ways, Refusal):
-                raise PlanError(ways.detail)
-            self._chain(job, follower, ways)
+            first = self._first(job, follower, self.override)
+            if isinstance(first, Refusal):
+                raise PlanError(first.detail)
+            self._chain(job, follower, first, way_of(self.config, follower.job, first.end, self.override))
             return
         self._passed_already(job)
         self._adopt(job, self._planned(job))

@@ -117,14 +117,24 @@ class ManualConfig(NamedTuple):
 
 
 class ModuloConfig(NamedTuple):
-    """The modulo view of the position: its period, u, and the half width of the tolerance window, u."""
+    """The modulo view of the position.
+
+    Attributes:
+        period: u.
+        tolerance: half width of the window in which a modulo move takes the nearest way, u.
+        described: the machine description has it: a modulo axis, and not only a view that every axis has.
+    """
 
     period: float = 360.0
     tolerance: float = 0.0
+    described: bool = False
 
 
 class AxisConfig(NamedTuple):
-    """What the machine description says of an axis; software limits are infinite where there are none."""
+    """What the machine description says of an axis; software limits are infinite where there are none.
+
+    `simulated` axes have no drive of their own: what is commanded is what is reported.
+    """
 
     name: str
     unit: str
@@ -136,3 +146,4 @@ class AxisConfig(NamedTuple):
     manual: ManualConfig
     monitor: MonitorConfig = MonitorConfig()
     modulo: ModuloConfig = ModuloConfig()
+    simulated: bool = False

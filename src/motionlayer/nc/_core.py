@@ -2,15 +2,14 @@
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from motionlayer.command import ErrorId, Ledger, MotionError
 from motionlayer.event import EventLog, Kind, Level
 from motionlayer.nc._axis_ref import StateDWord
-from motionlayer.nc._buffer import AxisBuffer
 from motionlayer.nc._config import AxisConfig
+from motionlayer.nc._cycle import AxisCycle
 from motionlayer.nc._limits import limit_text
-from motionlayer.nc._monitors import IN_RANGE, IN_TARGET, Seen
+from motionlayer.nc._monitors import Monitors, Seen
 from motionlayer.nc._motion import (
     BOUNDED,
     AxisCommand,
@@ -18,16 +17,14 @@ from motionlayer.nc._motion import (
     Job,
     JobKind,
 )
+from motionlayer.nc._progress import AxisProgress
 from motionlayer.nc._reaction import REACTIONS, Reaction, status_error
 from motionlayer.nc._states import AxisEvent, AxisState
 from motionlayer.profile import PlanError
 from motionlayer.store import JOB_OTHER, Ended, Q, Store, Watch
 
-if TYPE_CHECKING:
-    from motionlayer.nc._homing import Homing
 
-
-class AxisCore(AxisBuffer):
+class AxisCore(AxisProgress):
     """Job of one axis; `Axis` adds the commands.
 
     Args:
@@ -40,56 +37,23 @@ class AxisCore(AxisBuffer):
 
     def __init__(self, config: AxisConfig, column: int, store: Store, ledger: Ledger, events: EventLog) -> None:
         super().__init__(config, column, store, ledger, events)
-        self._homing: Homing | None = None
         self._bound: Watch | None = None
         self._power: AxisCommand | None = None
         self._reset: AxisCommand | None = None
-        self.faulted: list[int] | None = None
+        self._faulted: list[int] | None = None
+        self.cycle = AxisCycle(
+            self._attach, self._drive_changed, self._monitored, self._profile_ended, self._override_changed
+        )
+        """For the stage of the axes alone."""
         self._set_plan(self.set_position)
-
-    @property
-    def command(self) -> AxisCommand | None:
-        """The command that the axis works on."""
-        return self._job.command if self._job is not None else None
-
-    @property
-    def remaining_time(self) -> float:
-        """Seconds until the present profile comes to its last piece; infinite in homing and held by override 0."""
-        store = self._store
-        if self._homing is not None or self._held:
-            return math.inf
-        return max(0.0, float(store.end_of(self._column)[0]) - store.since(self._column))
-
-    @property
-    def in_velocity(self) -> bool:
-        """The setpoint moves at the commanded velocity times the override, without acceleration."""
-        job = self._job
-        if job is None or job.kind is not JobKind.VELOCITY or self.set_acceleration != 0.0:
-            return False
-        return math.isclose(self.set_velocity, job.target * self.override, rel_tol=1e-12)
-
-    @property
-    def in_end_velocity(self) -> bool:
-        """A continuous motion has passed its target and moves at its end velocity times the override."""
-        job = self._job
-        if job is None or job.end_speed == 0.0 or self.set_acceleration != 0.0:
-            return False
-        passed = job.passed != 0.0 or self._reached(job)
-        return passed and math.isclose(abs(self.set_velocity), job.end_speed * self.override, rel_tol=1e-12)
-
-    @property
-    def in_target(self) -> bool:
-        """InTargetPosition: inside the target window for its time; False without such a window."""
-        return self.monitors is not None and self.monitors.flag(self._column, IN_TARGET)
-
-    @property
-    def in_position_area(self) -> bool:
-        """InPositionArea: inside the range window; False without such a window."""
-        return self.monitors is not None and self.monitors.flag(self._column, IN_RANGE)
 
     # -- what the cycle brings -----------------------------------------------------------------------------------
 
-    def drive_changed(self) -> None:
+    def _attach(self, monitors: Monitors, faulted: list[int] | None, configured: Callable[[int], None]) -> None:
+        """Take over what the axes of a machine share."""
+        self._monitors, self._faulted, self._configured = monitors, faulted, configured
+
+    def _drive_changed(self) -> None:
         """Take up a change of the drive's readiness, status or inputs."""
         trouble = status_error(int(self._table[Q.STATUS, self._column]))
         if trouble is not None and self._state is not AxisState.ERRORSTOP:
@@ -97,7 +61,7 @@ class AxisCore(AxisBuffer):
         elif self.enabled and self._state is AxisState.DISABLED:
             self._set_plan(self.actual_position)
             self._enter(self._step(AxisEvent.READY))
-        elif self.enabled and self._state is AxisState.ERRORSTOP and self._enabling:
+        elif self.enabled and self._state is AxisState.ERRORSTOP and self._enabling and self._job is None:
             self._set_plan(self.actual_position)
         elif not self.enabled and self._missed:
             self.fault(ErrorId.NOT_ENABLED, "the drive lost its enable")
@@ -123,16 +87,18 @@ class AxisCore(AxisBuffer):
         wanted = self._job is not None or bool(self._table[Q.ENABLE, self._column])
         return wanted and self._state not in {AxisState.ERRORSTOP, AxisState.DISABLED}
 
-    def monitored(self, seen: Seen) -> None:
+    def _monitored(self, seen: Seen) -> None:
         """Take up what the monitors found."""
         job = self._job
-        waited = job is not None and job.arrived
+        waited = job is not None and job.watched
         if seen.error is None and job is not None and waited:
-            self._at_rest(job)
+            self._watch_window(job, on=False)
+            if not _is_held(job):
+                self._at_rest(job)
         elif seen.error is not None and self._state is not AxisState.ERRORSTOP and (waited or not seen.of_target):
-            self.fault(seen.error, f"{seen.text} {self.config.unit}")
+            self.fault(seen.error, f"{seen.text} {self.config.unit}{seen.per}")
 
-    def profile_ended(self, ended: Ended) -> None:
+    def _profile_ended(self, ended: Ended) -> None:
         """Take up that the profile came to its last piece."""
         if ended.went_on:
             self._guarded(lambda: self._went_on(ended))
@@ -154,10 +120,17 @@ class AxisCore(AxisBuffer):
 
     def _waits_for_more(self, job: Job) -> bool:
         """Tell whether a job whose setpoint has come to its end waits: for the actual position, or to be released."""
-        if job.kind is JobKind.POSITION and self.monitors is not None and self.monitors.waits_for_target(self._column):
-            self.monitors.wait(self._column)
-            return True
-        return job.kind is JobKind.STOP and isinstance(job.command, HeldCommand) and job.command.held
+        if self._has_window(job):
+            self._watch_window(job, on=True)
+        return job.watched or _is_held(job)
+
+    def _watch_window(self, job: Job, *, on: bool) -> None:
+        """Wait for the actual position, or not any more."""
+        job.watched = on
+        if isinstance(job.command, HeldCommand):
+            job.command.watched = on
+        if on and self._monitors is not None:
+            self._monitors.wait(self._column)
 
     def _at_limit(self, job: Job) -> None:
         """Take up that an endless motion has come to rest on a software limit; a jog may stay there."""
@@ -168,19 +141,19 @@ class AxisCore(AxisBuffer):
         error = ErrorId.MAXIMUM_PASSED if up else ErrorId.MINIMUM_PASSED
         self.fault(error, limit_text(self.config, self.set_position, up=up))
 
-    def override_changed(self) -> None:
+    def _override_changed(self) -> None:
         """Plan anew what only the axis can plan."""
         if self._job is not None:
             self._guarded(self._plan_anew)
 
-    def released(self, command: HeldCommand) -> None:
+    def _released(self, command: HeldCommand) -> None:
         """Take up that a command is held no longer: a jog brakes, and what rests already ends with this tick."""
         job = self._job
         if job is None or job.command is not command:
             return
         if job.kind is JobKind.JOG:
             self._replan(Job(JobKind.HALT, math.nan, job.limits, command))
-        elif job.arrived:
+        elif job.arrived and not job.watched:
             self._replan(Job(job.kind, math.nan, job.limits, command))
 
     def fault(self, error: ErrorId, detail: str = "") -> None:
@@ -200,8 +173,8 @@ class AxisCore(AxisBuffer):
             self._replan(Job(JobKind.BRAKE, math.nan, self.config.maximum, None))
         if REACTIONS.get(error) is Reaction.POWER_OFF:
             self._cut_power()
-        if self.faulted is not None:
-            self.faulted.append(self._column)
+        if self._faulted is not None:
+            self._faulted.append(self._column)
 
     def _request_power(self, *, on: bool) -> None:
         """Ask the drive; nothing to wait for where it is so already."""
@@ -273,3 +246,8 @@ class AxisCore(AxisBuffer):
             plan()
         except PlanError as error:
             self.fault(ErrorId.INTERNAL, str(error))
+
+
+def _is_held(job: Job) -> bool:
+    """Tell whether a stop keeps its axis locked."""
+    return job.kind is JobKind.STOP and isinstance(job.command, HeldCommand) and job.command.held

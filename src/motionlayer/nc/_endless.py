@@ -1,11 +1,23 @@
 """Motion without end, and jogging."""
 
 import math
+from typing import Unpack
 
 from motionlayer.command import ErrorId
-from motionlayer.nc._config import BufferMode, Direction, JogMode
-from motionlayer.nc._motion import Asked, AxisCommand, HeldCommand, Job, JobKind, Refusal, member, number, required
-from motionlayer.nc._positioning import buffering_of
+from motionlayer.nc._config import Direction, JogMode
+from motionlayer.nc._keywords import ContinuousKeywords, EndlessKeywords, JogKeywords, checked
+from motionlayer.nc._motion import (
+    Asked,
+    AxisCommand,
+    HeldCommand,
+    Job,
+    JobKind,
+    Refusal,
+    bad_speed,
+    member,
+    number,
+    required,
+)
 from motionlayer.nc._states import AxisEvent
 from motionlayer.nc._submission import AxisSubmission
 
@@ -18,15 +30,7 @@ class AxisEndless(AxisSubmission):
     """
 
     def move_velocity(
-        self,
-        velocity: float,
-        direction: Direction = Direction.POSITIVE,
-        *,
-        acceleration: float | None = None,
-        deceleration: float | None = None,
-        jerk: float | None = None,
-        buffer_mode: BufferMode = BufferMode.ABORTING,
-        blending_position: float | None = None,
+        self, velocity: float, direction: Direction = Direction.POSITIVE, **keywords: Unpack[EndlessKeywords]
     ) -> AxisCommand:
         """Move without end; the command stays active until another one takes over.
 
@@ -35,20 +39,15 @@ class AxisEndless(AxisSubmission):
         Args:
             velocity: magnitude, u/s.
             direction: POSITIVE, NEGATIVE, or CURRENT, which keeps that of the present motion, positive at rest.
-            acceleration: see `move_absolute`, as the following ones.
-            deceleration: see there.
-            jerk: see there.
-            buffer_mode: see there.
-            blending_position: see there.
+            **keywords: see `EndlessKeywords`.
 
         Raises:
-            TypeError: an argument is not a number, or of another enumeration.
+            TypeError: an argument is not a number, or of another enumeration, or a keyword unknown.
         """
         way = member("direction", direction, Direction)
+        chosen = checked("move_velocity", EndlessKeywords, keywords)
         command = AxisCommand(self, "move_velocity")
-        buffering = buffering_of(buffer_mode, blending_position)
-        asked = required("velocity", velocity), acceleration, deceleration, jerk
-        limits = self._lively(self._dynamics(command, asked))
+        limits = self._lively(self._dynamics(command, (required("velocity", velocity), *chosen.asked[1:])))
         if limits is None:
             return command
         if way in (Direction.SHORTEST_WAY, Direction.UNDEFINED):
@@ -58,20 +57,11 @@ class AxisEndless(AxisSubmission):
         sign = {Direction.POSITIVE: 1.0, Direction.NEGATIVE: -1.0, Direction.CURRENT: current}[way]
         job = Job(JobKind.VELOCITY, sign * limits.velocity, limits, command)
         text = f"move_velocity(velocity={velocity}, direction={way.name})"
-        self._submit(command, AxisEvent.MOVE_ENDLESS, text, lambda _start: job, buffering)
+        self._submit(command, AxisEvent.MOVE_ENDLESS, text, lambda _start: job, chosen.buffering)
         return command
 
     def move_continuous_absolute(
-        self,
-        position: float,
-        end_velocity: float,
-        *,
-        velocity: float | None = None,
-        acceleration: float | None = None,
-        deceleration: float | None = None,
-        jerk: float | None = None,
-        buffer_mode: BufferMode = BufferMode.ABORTING,
-        blending_position: float | None = None,
+        self, position: float, end_velocity: float, **keywords: Unpack[ContinuousKeywords]
     ) -> AxisCommand:
         """Move past a position with an end velocity, and on with it; the command stays active until another takes over.
 
@@ -80,66 +70,44 @@ class AxisEndless(AxisSubmission):
 
         Args:
             position: to be passed, u.
-            end_velocity: magnitude, u/s; above `velocity` too.
-            velocity: at most on the way, u/s; see `move_absolute`, as the following ones.
-            acceleration: see there.
-            deceleration: see there.
-            jerk: see there.
-            buffer_mode: see there.
-            blending_position: see there.
+            end_velocity: magnitude, u/s; above `velocity` too, which holds on the way.
+            **keywords: see `ContinuousKeywords`.
 
         Raises:
-            TypeError: an argument is not a number, or the mode not a `BufferMode`.
+            TypeError: an argument is not a number, or a keyword is unknown or of another type.
         """
         goal = required("position", position)
         text = f"move_continuous_absolute(position={goal}, end_velocity={end_velocity})"
-        asked = velocity, acceleration, deceleration, jerk
-        return self._continuous(text, goal, end_velocity, asked, (buffer_mode, blending_position), relative=False)
+        return self._continuous(text, goal, end_velocity, keywords, relative=False)
 
     def move_continuous_relative(
-        self,
-        distance: float,
-        end_velocity: float,
-        *,
-        velocity: float | None = None,
-        acceleration: float | None = None,
-        deceleration: float | None = None,
-        jerk: float | None = None,
-        buffer_mode: BufferMode = BufferMode.ABORTING,
-        blending_position: float | None = None,
+        self, distance: float, end_velocity: float, **keywords: Unpack[ContinuousKeywords]
     ) -> AxisCommand:
         """The same for a distance from the set position at which the command begins."""
         way = required("distance", distance)
         text = f"move_continuous_relative(distance={way}, end_velocity={end_velocity})"
-        asked = velocity, acceleration, deceleration, jerk
-        return self._continuous(text, way, end_velocity, asked, (buffer_mode, blending_position), relative=True)
+        return self._continuous(text, way, end_velocity, keywords, relative=True)
 
     def _continuous(
-        self,
-        text: str,
-        goal: float,
-        end_velocity: float,
-        asked: Asked,
-        follows: tuple[BufferMode, float | None],
-        *,
-        relative: bool,
+        self, text: str, goal: float, end_velocity: float, keywords: ContinuousKeywords, *, relative: bool
     ) -> AxisCommand:
-        command = AxisCommand(self, text.partition("(")[0])
-        buffering, end = buffering_of(*follows), required("end_velocity", end_velocity)
-        limits = self._lively(self._dynamics(command, asked))
+        name, end = text.partition("(")[0], required("end_velocity", end_velocity)
+        chosen = checked(name, ContinuousKeywords, keywords)
+        command = AxisCommand(self, name)
+        limits = self._lively(self._dynamics(command, chosen.asked))
         if limits is None:
             return command
         most = self.config.maximum.velocity
-        if not 0.0 < end <= most:
-            detail = f"end_velocity = {end}, allowed: 0 < end_velocity <= {most} {self.config.unit}/s"
-            return self._refuse(command, Refusal(ErrorId.VELOCITY, detail))
+        refusal = bad_speed("end_velocity", end, most, self.config.unit)
+        if refusal is not None:
+            return self._refuse(command, refusal)
         dynamics = limits
 
         def make(start: float) -> Job:
             target = start + goal if relative else goal
             return Job(JobKind.CONTINUOUS, target, dynamics, command, end_speed=end)
 
-        self._submit(command, AxisEvent.MOVE_ENDLESS, text, make, buffering)
+        self._submit(command, AxisEvent.MOVE_ENDLESS, text, make, chosen.buffering)
         return command
 
     def jog(
@@ -148,10 +116,7 @@ class AxisEndless(AxisSubmission):
         mode: JogMode = JogMode.STANDARD_SLOW,
         *,
         step: float | None = None,
-        velocity: float | None = None,
-        acceleration: float | None = None,
-        deceleration: float | None = None,
-        jerk: float | None = None,
+        **keywords: Unpack[JogKeywords],
     ) -> HeldCommand:
         """Move by hand: until `command.release()`, which brakes, or by one step; done at rest.
 
@@ -159,18 +124,16 @@ class AxisEndless(AxisSubmission):
             direction: POSITIVE or NEGATIVE.
             mode: see `JogMode`; the standard modes take velocity and dynamics from the axis alone.
             step: of the inching modes, u, > 0; that of the machine description where left out.
-            velocity: see `move_absolute`, as the following ones; for the slow manual velocity where left out.
-            acceleration: see there.
-            deceleration: see there.
-            jerk: see there.
+            **keywords: see `JogKeywords`; the velocity is the slow manual one where left out.
 
         Raises:
-            TypeError: an argument is not a number, or of another enumeration.
+            TypeError: an argument is not a number, or of another enumeration, or a keyword unknown.
         """
         way, kind = member("direction", direction, Direction), member("mode", mode, JogMode)
-        command = HeldCommand(self, "jog")
+        asked: Asked = checked("jog", JogKeywords, keywords).asked
+        command = HeldCommand(self, "jog", self._released)
         manual, size = self.config.manual, number("step", step)
-        asked: Asked = (manual.slow if velocity is None else velocity, acceleration, deceleration, jerk)
+        asked = (manual.slow if asked[0] is None else asked[0], *asked[1:])
         if kind in (JogMode.STANDARD_SLOW, JogMode.STANDARD_FAST):
             asked = (manual.slow if kind is JogMode.STANDARD_SLOW else manual.fast, None, None, None)
         limits = self._lively(self._dynamics(command, asked))
@@ -196,7 +159,7 @@ class AxisEndless(AxisSubmission):
             goal = start + sign * width if kind is JogMode.INCHING else _multiple(start, sign, width)
             return Job(JobKind.POSITION, goal, dynamics, command)
 
-        self._submit(command, AxisEvent.MOVE, text, make)
+        self._submit(command, AxisEvent.MOVE, f"{text[:-1]}, step={width})", make)
         return command
 
 

@@ -5,60 +5,54 @@ and define the position by the distance travelled since the edge, which the driv
 switch searches the same edge the other way round. `cam`: search the cam, come to rest on it, leave it again, slowly as
 a rule; its falling edge is the reference. `index`: the same, and the zero pulse behind the cam is the reference.
 
+A program may read the cam itself and tell its signal, which counts beside that of the drive. Nothing latches it: its
+edge is where the axis is in the tick in which it is told.
+
 Every search has a longest way. What the table does not list leaves the homing where it is.
 """
 
 import enum
 import math
 from collections.abc import Callable
-from typing import Final, Protocol
+from typing import Final, NamedTuple
 
 from motionlayer.command import ErrorId
 from motionlayer.nc._config import AxisConfig, HomingMode
-from motionlayer.nc._motion import AxisCommand
+from motionlayer.nc._motion import AxisCommand, Moving
 
 
-class HomingAxis(Protocol):
-    """What a homing needs of its axis."""
+class HomingPort(NamedTuple):
+    """What a homing sees and does of its axis; nobody else needs it.
+
+    Attributes:
+        config: of the axis, with the homing that was asked for.
+        place: returns the present setpoint, u.
+        actual: returns the present actual position, u.
+        switch: tells whether the reference switch is on.
+        edge: returns the position of its last edge, u.
+        pulse: returns the position of the zero pulse that came since the latch was armed, u; None while it waits.
+        arm: lets the drive latch the next zero pulse.
+        search: moves with a signed velocity, u/s.
+        brake: comes to rest.
+        show: shows the phase, `NcToPlc.HomingState`.
+        guard: has `Homing.too_far` called when the setpoint passes a position, u.
+        finish: redefines the position, u; the homing is over.
+        fault: puts the axis in error; the homing is over.
+    """
 
     config: AxisConfig
-
-    @property
-    def set_position(self) -> float:
-        """Present setpoint, u."""
-
-    @property
-    def at_home_input(self) -> bool:
-        """The reference switch is on."""
-
-    @property
-    def home_latch(self) -> float:
-        """Position of the last edge of the switch, u."""
-
-    @property
-    def index_latch(self) -> float | None:
-        """Position of the zero pulse that came since the latch was armed, u; None while it waits."""
-
-    def arm_latch(self) -> None:
-        """Let the drive latch the next zero pulse."""
-
-    def search(self, velocity: float, command: AxisCommand) -> None:
-        """Move with a signed velocity."""
-
-    def brake(self, command: AxisCommand) -> None:
-        """Come to rest."""
-
-    def show_phase(self, phase: int) -> None:
-        """Show the phase, `NcToPlc.HomingState`."""
-
-    def guard(self, position: float, homing: "Homing") -> None:
-        """Tell the homing when the setpoint passes a position."""
-
-    def finish_homing(self, position: float, command: AxisCommand) -> None:
-        """Redefine the position; the homing is over."""
-
-    def fault(self, error: ErrorId, detail: str = "") -> None:
-        """Put the axis in error; the homing is over."""
+    place: Callable[[], float]
+    actual: Callable[[], float]
+    switch: Callable[[], bool]
+    edge: Callable[[], float]
+    pulse: Callable[[], float | None]
+    arm: Callable[[], None]
+    search: Callable[[float, AxisCommand], None]
+    brake: Callable[[AxisCommand], None]
+    show: Callable[[int], None]
+    guard: Callable[[float, "Homing"], None]
+    finish: Callable[[float, AxisCommand], None]
+    fault: Callable[[ErrorId, str], None]
 
 
 class Step(enum.IntEnum):
@@ -88,24 +82,38 @@ class Cue(enum.Enum):
     TOO_FAR = "the longest way of a search is over"
 
 
+class HomeCommand(AxisCommand):
+    """A homing, which a program can tell the signal of a cam that it reads itself."""
+
+    def __init__(self, axis: Moving, name: str) -> None:
+        super().__init__(axis, name)
+        self.homing: Homing | None = None
+
+    def cam(self, *, on: bool) -> None:
+        """Tell whether the cam is on; it counts beside the signal of the drive. After the end it does nothing."""
+        if self.homing is not None and self.busy:
+            self.homing.cam_told(on=on)
+
+
 class Homing:
     """One homing of one axis.
 
     Args:
-        axis: whom to move.
+        port: to the axis.
         command: whom to tell.
-        reference: position of the reference, u.
-        mode: in which way.
+        cam: signal of a cam that the program reads.
     """
 
-    def __init__(self, axis: HomingAxis, command: AxisCommand, reference: float, mode: HomingMode) -> None:
-        self._axis = axis
+    def __init__(self, port: HomingPort, command: AxisCommand, *, cam: bool) -> None:
+        self._port = port
         self._command = command
-        self._reference = reference
-        self._mode = mode
+        self._mode = port.config.home.mode
+        self._reference = port.config.home.position
         self._step = Step.READY
-        self._on = axis.at_home_input
-        self._place = math.nan
+        self._cam = cam
+        self._switch = port.switch()
+        self._on = cam or self._switch
+        self._edge_place = self._place = math.nan
 
     def begin(self) -> None:
         """Start the search, or be done at once in direct mode."""
@@ -117,12 +125,19 @@ class Homing:
         else:
             self._take(Cue.ON_SWITCH if self._mode is HomingMode.SWITCH else Cue.ON_CAM)
 
+    def cam_told(self, *, on: bool) -> None:
+        """Take up the signal of a cam that the program reads."""
+        self._cam = on
+        self.input_changed()
+
     def input_changed(self) -> None:
         """Look for edges and for the zero pulse."""
-        if self._axis.at_home_input != self._on:
+        before, self._switch = self._switch, self._port.switch()
+        if (self._cam or self._switch) != self._on:
             self._on = not self._on
+            self._edge_place = self._port.edge() if self._switch != before else self._port.actual()
             self._take(self._edge())
-        if self._step is Step.SYNC and self._axis.index_latch is not None:
+        if self._step is Step.SYNC and self._port.pulse() is not None:
             self._take(Cue.LATCHED)
 
     def at_rest(self) -> None:
@@ -151,59 +166,59 @@ class Homing:
         found = STEPS.get((self._step, cue))
         if found is not None:
             self._step, action = found
-            self._axis.show_phase(self._step)
+            self._port.show(self._step)
             action(self)
 
     def define_here(self) -> None:
         """Let the present position be the reference."""
-        self._axis.finish_homing(self._reference, self._command)
+        self._port.finish(self._reference, self._command)
 
     def search(self) -> None:
         """Move towards the switch or the cam."""
-        home = self._axis.config.home
+        home = self._port.config.home
         self._move(home.direction * home.velocity)
 
     def search_back(self) -> None:
         """Move off the switch, towards the same edge."""
-        home = self._axis.config.home
+        home = self._port.config.home
         self._move(-home.direction * home.velocity)
 
     def leave_cam(self) -> None:
         """Move off the cam."""
-        home = self._axis.config.home
+        home = self._port.config.home
         self._move(home.sync_direction * home.sync_velocity)
 
     def brake(self) -> None:
         """Come to rest on the cam."""
-        self._axis.brake(self._command)
+        self._port.brake(self._command)
 
     def brake_behind_edge(self) -> None:
         """Note the edge and come to rest behind it."""
-        self._place = self._axis.home_latch
-        self._axis.brake(self._command)
+        self._place = self._edge_place
+        self._port.brake(self._command)
 
     def arm_latch(self) -> None:
         """Go on, and let the next zero pulse be the reference."""
-        self._axis.arm_latch()
-        self._guard(self._axis.config.home.sync_direction)
+        self._port.arm()
+        self._guard(self._port.config.home.sync_direction)
 
     def brake_behind_pulse(self) -> None:
         """Note the zero pulse and come to rest behind it; too near to the edge it may be another one next time."""
-        place, edge, least = self._axis.index_latch, self._axis.home_latch, self._axis.config.home.pulse_distance
+        place, edge, least = self._port.pulse(), self._edge_place, self._port.config.home.pulse_distance
         assert place is not None
         if abs(place - edge) < least:
-            self._axis.fault(ErrorId.LATCH_TOO_CLOSE, f"{abs(place - edge)}, at least {least} {self._unit}")
+            self._port.fault(ErrorId.LATCH_TOO_CLOSE, f"{abs(place - edge)}, at least {least} {self._unit}")
             return
         self._place = place
-        self._axis.brake(self._command)
+        self._port.brake(self._command)
 
     def released_early(self) -> None:
         """Give up: the cam is shorter than the brake."""
-        self._axis.fault(ErrorId.CAM_RELEASED_EARLY, "the axis came to rest behind the cam")
+        self._port.fault(ErrorId.CAM_RELEASED_EARLY, "the axis came to rest behind the cam")
 
     def define_from_place(self) -> None:
         """Define the position: reference plus what was travelled since the latched place."""
-        self._axis.finish_homing(self._reference + self._axis.set_position - self._place, self._command)
+        self._port.finish(self._reference + self._port.place() - self._place, self._command)
 
     def cam_not_found(self) -> None:
         """Give up the search of the cam or the switch."""
@@ -218,21 +233,21 @@ class Homing:
         self._give_up(ErrorId.SYNC_PULSE_NOT_FOUND)
 
     def _give_up(self, error: ErrorId) -> None:
-        self._axis.fault(error, f"within {self._axis.config.home.travel} {self._unit}")
+        self._port.fault(error, f"within {self._port.config.home.travel} {self._unit}")
 
     @property
     def _unit(self) -> str:
-        return self._axis.config.unit
+        return self._port.config.unit
 
     def _move(self, velocity: float) -> None:
-        self._axis.search(velocity, self._command)
+        self._port.search(velocity, self._command)
         self._guard(math.copysign(1.0, velocity))
 
     def _guard(self, direction: float) -> None:
         """Bound the way of a search."""
-        way = direction * self._axis.config.home.travel
+        way = direction * self._port.config.home.travel
         if math.isfinite(way):
-            self._axis.guard(self._axis.set_position + way, self)
+            self._port.guard(self._port.place() + way, self)
 
 
 _H = Homing

@@ -1,19 +1,28 @@
-"""Software limits and feed enables: which commands they refuse."""
+"""Software limits and feed enables: which commands they refuse.
+
+What a way is compared with is blurred by a share of the sizes that take part, and of nothing else: the same motion in
+µm, mm and m is judged alike.
+"""
 
 import math
+from typing import Final
 
 from motionlayer.command import ErrorId
 from motionlayer.nc._config import AxisConfig
 from motionlayer.nc._motion import BOUNDED, SCALED, Job, JobKind, Refusal
-from motionlayer.profile import Profile
+from motionlayer.profile import RANGES, Profile
+
+BLUR: Final = 1e-9
+"""Share of positions and ways that counts as none; ten times what a plan may be off."""
 
 
 def bad_target(config: AxisConfig, job: Job, here: float) -> Refusal | None:
     """Tell why a target cannot be commanded from `here`, before anything is planned."""
     low, high, unit = config.limit_min, config.limit_max, config.unit
     if job.kind in (JobKind.POSITION, JobKind.CONTINUOUS):
-        if not math.isfinite(job.target):
-            return Refusal(ErrorId.TARGET_NOT_FINITE, f"target = {job.target}")
+        outside = bad_place("target", job.target, unit)
+        if outside is not None:
+            return outside
         if not low <= job.target <= high:
             return Refusal(ErrorId.TARGET_OUTSIDE_LIMITS, f"target = {job.target}, allowed: {low} to {high} {unit}")
     elif job.kind in BOUNDED and here >= high and job.target > 0.0:
@@ -23,10 +32,20 @@ def bad_target(config: AxisConfig, job: Job, here: float) -> Refusal | None:
     return None
 
 
+def bad_place(name: str, position: float, unit: str) -> Refusal | None:
+    """Tell why an axis cannot be at a position: it is no number, or none that can be planned with."""
+    if not math.isfinite(position):
+        return Refusal(ErrorId.TARGET_NOT_FINITE, f"{name} = {position}")
+    if abs(position) > RANGES.largest:
+        allowed = f"allowed: {-RANGES.largest} to {RANGES.largest} {unit}"
+        return Refusal(ErrorId.SET_POSITION_RANGE, f"{name} = {position}, {allowed}")
+    return None
+
+
 def overrun(config: AxisConfig, job: Job, profile: Profile, here: float) -> Refusal | None:
     """Tell whether the way from `here` to the target leaves the software limits."""
     low, high = config.limit_min, config.limit_max
-    blur = _blur(here)
+    blur = _blur(profile)
     if job.kind not in SCALED or (profile.low >= min(low, here) - blur and profile.high <= max(high, here) + blur):
         return None
     reach = f"would reach {profile.low} to {profile.high}, allowed: {low} to {high} {config.unit}"
@@ -35,7 +54,7 @@ def overrun(config: AxisConfig, job: Job, profile: Profile, here: float) -> Refu
 
 def directions(profile: Profile, here: float) -> tuple[bool, bool]:
     """Tell whether a profile that begins at `here` leads in positive and in negative direction."""
-    blur, end = _blur(here), float(profile.pieces[-1, 2])
+    blur, end = _blur(profile), float(profile.pieces[-1, 2])
     return profile.high > here + blur or end > 0.0, profile.low < here - blur or end < 0.0
 
 
@@ -54,5 +73,6 @@ def limit_text(config: AxisConfig, here: float, *, up: bool) -> str:
     return f"position = {here}, limit {config.limit_max if up else config.limit_min} {config.unit}"
 
 
-def _blur(here: float) -> float:
-    return 1e-9 * (1.0 + abs(here))
+def _blur(profile: Profile) -> float:
+    """Return what rounding may do to the ends of a way."""
+    return BLUR * max(abs(profile.low), abs(profile.high), profile.high - profile.low)

@@ -27,6 +27,12 @@ class MonitorConfig(NamedTuple):
         target_time: see there.
         target_timeout: how long after the setpoint has arrived this may take; None for ever.
         software_limits: the actual position is watched too, with the largest lag as margin.
+        velocity_lag: largest velocity lag, u/s.
+        velocity_lag_time: for how long it may be larger; a single cycle, as a redefined position makes one, never
+            counts.
+        motion_window: with a job whose setpoint moves, the actual position changes by more than this in at least one
+            cycle, u,
+        motion_time: within this time.
     """
 
     lag: float | None = None
@@ -36,11 +42,15 @@ class MonitorConfig(NamedTuple):
     target_time: float = 0.0
     target_timeout: float | None = None
     software_limits: bool = False
+    velocity_lag: float | None = None
+    velocity_lag_time: float = 0.0
+    motion_window: float | None = None
+    motion_time: float = 0.5
 
     @property
     def any(self) -> bool:
         """Something is watched."""
-        watched = (self.lag, self.range_window, self.target_window)
+        watched = (self.lag, self.range_window, self.target_window, self.velocity_lag, self.motion_window)
         return self.software_limits or any(one is not None for one in watched)
 
 
@@ -51,11 +61,13 @@ class Seen(NamedTuple):
         column: the axis.
         error: what it means; None if the actual position came to the target that was waited for.
         text: values and limits, without the unit.
+        per: what follows the unit of the axis in that of the values.
     """
 
     column: int
     error: ErrorId | None
     text: str = ""
+    per: str = ""
 
     @property
     def of_target(self) -> bool:
@@ -63,13 +75,17 @@ class Seen(NamedTuple):
         return self.error is ErrorId.TARGET_TIMEOUT
 
 
-ERRORS: Final[tuple[tuple[int, ErrorId, str, int], ...]] = (
-    (bits.LAG_ERROR, ErrorId.LAG, "lag = {value}, allowed: {window}", Q.LAG),
-    (bits.BELOW, ErrorId.MINIMUM_PASSED, "actual position = {value}, limit {low}", Q.ACTUAL_P),
-    (bits.ABOVE, ErrorId.MAXIMUM_PASSED, "actual position = {value}, limit {high}", Q.ACTUAL_P),
-    (bits.ALARM, ErrorId.TARGET_TIMEOUT, "actual position = {value}, target {target}", Q.ACTUAL_P),
+_MOTION: Final = "moved by no more than {config.motion_window} in any cycle for {config.motion_time} s, at {actual}"
+
+ERRORS: Final[tuple[tuple[int, ErrorId, str, str], ...]] = (
+    (bits.LAG_ERROR, ErrorId.LAG, "lag = {lag}, allowed: {config.lag}", ""),
+    (bits.RATE_ERROR, ErrorId.VELOCITY_LAG, "velocity lag = {rate}, allowed: {config.velocity_lag}", "/s"),
+    (bits.MOTION_ERROR, ErrorId.NO_MOTION, _MOTION, ""),
+    (bits.BELOW, ErrorId.MINIMUM_PASSED, "actual position = {actual}, limit {low}", ""),
+    (bits.ABOVE, ErrorId.MAXIMUM_PASSED, "actual position = {actual}, limit {high}", ""),
+    (bits.ALARM, ErrorId.TARGET_TIMEOUT, "actual position = {actual}, target {target}", ""),
 )
-"""Bits that are errors, the gravest first: id, how the message goes on, and the row its value comes from."""
+"""Bits that are errors, the gravest first: id, how the message goes on, and what follows the unit there."""
 
 
 class Monitors:
@@ -110,6 +126,8 @@ class Monitors:
         self._parameters = np.concatenate([self._parameters, np.zeros((bits.PARAMETERS, count))], axis=1)
         fresh = np.zeros((bits.STATES, count))
         fresh[bits.WAITING] = -1.0
+        fresh[bits.LAST_P] = self._store.table[Q.ACTUAL_P, columns] - self._store.table[Q.SHIFT, columns]
+        fresh[bits.LAST_LAG] = self._store.table[Q.LAG, columns]
         self._states = np.concatenate([self._states, fresh], axis=1)
         self._done = np.concatenate([self._done, np.zeros(count, dtype=np.int64)])
         self._events = np.zeros((len(self._columns), 2), dtype=np.int64)
@@ -128,13 +146,13 @@ class Monitors:
         return [self._seen(int(self._columns[k]), found) for k, found in self._events[:count].tolist()]
 
     def _seen(self, column: int, found: int) -> Seen:
-        table = self._store.table
-        for bit, error, text, row in ERRORS:
+        for bit, error, text, per in ERRORS:
             if found & bit:
-                low, high, target = table[[Q.MIN_P, Q.MAX_P, Q.TARGET], column].tolist()
-                window = self._configs[column].lag
-                value = float(table[row, column])
-                return Seen(column, error, text.format(value=value, window=window, low=low, high=high, target=target))
+                rows = [Q.LAG, Q.ACTUAL_P, Q.MIN_P, Q.MAX_P, Q.TARGET]
+                values = zip(("lag", "actual", "low", "high", "target"), self._store.table[rows, column], strict=True)
+                rate = float(self._states[bits.RATE, self._index[column]]) / self._store.dt
+                told = {name: float(value) for name, value in values}
+                return Seen(column, error, text.format(**told, rate=rate, config=self._configs[column]), per)
         return Seen(column, None)
 
     def waits_for_target(self, column: int) -> bool:
@@ -174,4 +192,8 @@ def _parameters(config: MonitorConfig, dt: float) -> list[float]:
         ticks(config.target_time),
         ticks(config.target_timeout),
         margin,
+        OFF if config.velocity_lag is None else config.velocity_lag * dt,
+        max(1.0, ticks(config.velocity_lag_time)),
+        OFF if config.motion_window is None else config.motion_window,
+        OFF if config.motion_window is None else max(1.0, ticks(config.motion_time)),
     ]

@@ -3,12 +3,13 @@
 import enum
 import math
 import numbers
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final, NamedTuple, Protocol, TypeVar
 
 from motionlayer.command import Command, ErrorId, Ledger
 from motionlayer.nc._states import AxisEvent
-from motionlayer.profile import Limits
+from motionlayer.profile import RANGES, Limits
 
 
 class Moving(Protocol):
@@ -28,9 +29,6 @@ class Moving(Protocol):
     @property
     def remaining_time(self) -> float:
         """Seconds until the setpoint comes to its target."""
-
-    def released(self, command: "HeldCommand") -> None:
-        """Take up that a command is held no longer."""
 
 
 class JobKind(enum.Enum):
@@ -52,6 +50,9 @@ SCALED: Final = frozenset({JobKind.POSITION, JobKind.VELOCITY, JobKind.CONTINUOU
 
 BOUNDED: Final = frozenset({JobKind.VELOCITY, JobKind.CONTINUOUS, JobKind.JOG})
 """Endless kinds that come to rest on a software limit ahead."""
+
+BRAKES: Final = frozenset({JobKind.HALT, JobKind.STOP, JobKind.BRAKE})
+"""Kinds that come to rest wherever that is."""
 
 DEFINITE: Final = frozenset({JobKind.POSITION, JobKind.HALT})
 """Kinds with an end at which a buffered command can begin."""
@@ -104,19 +105,32 @@ class AxisCommand(Command[None]):
 class HeldCommand(AxisCommand):
     """A command that lasts for as long as it is held: a stop that keeps the axis locked, a jog key.
 
+    Args:
+        axis: that executes it.
+        name: of the method.
+        released: told when it is let go.
+
     Attributes:
         held: nobody has released it.
+        watched: its setpoint rests, and the actual position is waited for.
     """
 
-    def __init__(self, axis: Moving, name: str) -> None:
+    def __init__(self, axis: Moving, name: str, released: Callable[["HeldCommand"], None]) -> None:
         super().__init__(axis, name)
+        self._released = released
         self.held = True
+        self.watched = False
+
+    @property
+    def at_target(self) -> bool:
+        """The setpoint rests, and the actual position is in its window where that is waited for."""
+        return super().at_target and not self.watched
 
     def release(self) -> None:
         """Let go: a stop unlocks the axis once it rests, a jog brakes. Again, or after the end, it does nothing."""
         if self.held and self.busy:
             self.held = False
-            self.axis.released(self)
+            self._released(self)
 
 
 @dataclass(slots=True)
@@ -132,8 +146,10 @@ class Job:
         end_speed: magnitude of the end velocity of CONTINUOUS, before the override.
         reach: seconds since the profile began at which CONTINUOUS passes its target.
         passed: direction in which CONTINUOUS has passed its target, 0 before.
+        monitored: its end is that of the actual position, where the axis has a window for it.
         arrived: the setpoint has come to its target, and something else is waited for: the actual position, a
             release.
+        watched: the actual position is what is waited for.
     """
 
     kind: JobKind
@@ -144,24 +160,25 @@ class Job:
     end_speed: float = 0.0
     reach: float = 0.0
     passed: float = 0.0
+    monitored: bool = False
     arrived: bool = False
+    watched: bool = False
 
 
-def number(name: str, value: float | None) -> float | None:
-    """Return a float.
+def number(name: str, value: object) -> float | None:
+    """Return a float, or None for None.
 
     Raises:
         TypeError: it is not a number.
     """
     if value is None or type(value) is float:
         return value
-    given: object = value
-    if isinstance(given, bool) or not isinstance(given, numbers.Real):
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} is {value!r}, a {type(value).__name__}; it must be a number")
     try:
-        return float(given)
+        return float(value)
     except OverflowError:  # an integer beyond all floats: refused as infinite
-        return math.inf if value > 0 else -math.inf
+        return math.copysign(math.inf, 1.0 if value == abs(value) else -1.0)
 
 
 def least_jerk(v: float, a: float, maximum: Limits) -> float:
@@ -180,7 +197,7 @@ def least_jerk(v: float, a: float, maximum: Limits) -> float:
     return min(needed, maximum.jerk)
 
 
-def required(name: str, value: float) -> float:
+def required(name: str, value: object) -> float:
     """Return a float.
 
     Raises:
@@ -195,7 +212,7 @@ def required(name: str, value: float) -> float:
 E = TypeVar("E", bound=enum.Enum)
 
 
-def member(name: str, value: E, of: type[E]) -> E:
+def member(name: str, value: object, of: type[E]) -> E:
     """Return a member of an enumeration.
 
     Raises:
@@ -234,8 +251,20 @@ def dynamics(
         given = number(name, value)
         if given is None:
             values.append(usual)
-        elif 0.0 < given <= most:
+        elif RANGES.smallest <= given <= most:
             values.append(given)
         else:
-            return Refusal(error, f"{name} = {given}, allowed: 0 < {name} <= {most} {unit}{per}")
+            return Refusal(error, f"{name} = {given}, allowed: {_from(given)} {name} <= {most} {unit}{per}")
     return Limits(*values)
+
+
+def bad_speed(name: str, value: float | None, most: float, unit: str) -> Refusal | None:
+    """Tell why a velocity cannot be asked for; None, where it is left out, can."""
+    if value is None or RANGES.smallest <= value <= most:
+        return None
+    return Refusal(ErrorId.VELOCITY, f"{name} = {value}, allowed: {_from(value)} {name} <= {most} {unit}/s")
+
+
+def _from(value: float) -> str:
+    """Return the lower bound of a size as a message names it: what is plannable matters only to whom it refuses."""
+    return f"{RANGES.smallest} <=" if 0.0 < value < RANGES.smallest else "0 <"

@@ -31,6 +31,8 @@ REACTIONS: Final[Mapping[ErrorId, Reaction]] = {
     ErrorId.NOT_ENABLED: Reaction.POWER_OFF,
     ErrorId.ENCODER: Reaction.POWER_OFF,
     ErrorId.LAG: Reaction.POWER_OFF,
+    ErrorId.VELOCITY_LAG: Reaction.POWER_OFF,
+    ErrorId.NO_MOTION: Reaction.POWER_OFF,
     ErrorId.DRIVE_NOT_READY: Reaction.POWER_OFF,
     ErrorId.IO_DATA_INVALID: Reaction.POWER_OFF,
     ErrorId.TARGET_TIMEOUT: Reaction.QUICK_STOP,

@@ -1,11 +1,13 @@
 """Homing and the definition of positions."""
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
 from motionlayer.command import ErrorId
-from motionlayer.nc._config import Calibration, HomingMode
-from motionlayer.nc._homing import Homing
+from motionlayer.nc._config import Calibration, HomeConfig, HomingMode
+from motionlayer.nc._home_keywords import HomeKeywords, asked_home, told
+from motionlayer.nc._homing import HomeCommand, Homing, HomingPort
+from motionlayer.nc._limits import bad_place
 from motionlayer.nc._motion import AxisCommand, Job, JobKind, Refusal, member, number, required
 from motionlayer.nc._states import AxisEvent, AxisState
 from motionlayer.nc._submission import AxisSubmission
@@ -23,39 +25,44 @@ class AxisReferencing(AxisSubmission):
     """What `set_position` has shifted the coordinate since the last homing, u."""
 
     def home(
-        self, position: float | None = None, mode: Calibration = Calibration.DEFAULT, *, clear_lag: bool = False
-    ) -> AxisCommand:
+        self,
+        position: float | None = None,
+        mode: Calibration = Calibration.DEFAULT,
+        **keywords: Unpack[HomeKeywords],
+    ) -> HomeCommand:
         """Find the reference; done when the axis is homed and at rest.
 
         Args:
             position: of the reference, u; that of the machine description where left out.
             mode: DEFAULT finds it in the way the machine description says, DIRECT takes the present position; FORCE and
                 RESET only change whether the axis counts as homed.
-            clear_lag: with DIRECT the actual position becomes the set position too.
+            **keywords: see `HomeKeywords`.
 
         Raises:
-            TypeError: the position is not a number, or the mode no `Calibration`.
+            TypeError: an argument is not a number, or of another enumeration, or a keyword unknown.
         """
-        command = AxisCommand(self, "home")
-        reference, kind = number("position", position), member("mode", mode, Calibration)
-        reference = self.config.home.position if reference is None else reference
-        if not math.isfinite(reference):
-            return self._refuse(command, Refusal(ErrorId.TARGET_NOT_FINITE, f"position = {reference}"))
-        way = HomingMode.DIRECT if kind is Calibration.DIRECT else self.config.home.mode
+        command = HomeCommand(self, "home")
+        kind = member("mode", mode, Calibration)
+        home = asked_home(self.config, number("position", position), keywords)
+        if isinstance(home, Refusal):
+            self._refuse(command, home)
+            return command
+        home = home._replace(mode=HomingMode.DIRECT) if kind is Calibration.DIRECT else home
         state = self._next(AxisEvent.HOME, command)
         if state is None:
             return command
-        if kind is Calibration.DEFAULT and way is not HomingMode.DIRECT and not all(self._feed):
-            return self._refuse(command, Refusal(ErrorId.FEED_NOT_ENABLED, "a homing needs both directions"))
-        self._accept(command, f"home(position={reference})" if kind is Calibration.DEFAULT else f"home({kind.name})")
+        if kind is Calibration.DEFAULT and home.mode is not HomingMode.DIRECT and not all(self._feed):
+            self._refuse(command, Refusal(ErrorId.FEED_NOT_ENABLED, "a homing needs both directions"))
+            return command
+        self._accept(command, told(home, self.config.home) if kind is Calibration.DEFAULT else f"home({kind.name})")
         if kind in (Calibration.FORCE, Calibration.RESET):
             self.homed = kind is Calibration.FORCE
             self._end(command)
             return command
         self._enter(state)
-        if clear_lag and kind is Calibration.DIRECT:
+        if keywords.get("clear_lag") and kind is Calibration.DIRECT:
             self._set_plan(self.actual_position)
-        self._homing = Homing(self, command, reference, way)
+        self._homing = command.homing = Homing(self._homing_port(home), command, cam=bool(keywords.get("cam")))
         self._homing.begin()
         return command
 
@@ -82,8 +89,11 @@ class AxisReferencing(AxisSubmission):
         """
         command = AxisCommand(self, "define_position")
         place = required("position", position)
-        if not math.isfinite(place):
-            return self._refuse(command, Refusal(ErrorId.TARGET_NOT_FINITE, f"position = {place}"))
+        shift = -self._offset if clear_offset else place if relative else place - self.actual_position
+        outside = bad_place("position", place, self.config.unit)
+        outside = outside or bad_place("resulting position", self.actual_position + shift, self.config.unit)
+        if outside is not None:
+            return self._refuse(command, outside)
         moves = self._job is not None
         if self._state in (AxisState.ERRORSTOP, AxisState.HOMING) or (moves and (clear_lag or not relative)):
             detail = f"state {self._state!s}, allowed: at rest, in motion only relative and without clear_lag"
@@ -92,7 +102,6 @@ class AxisReferencing(AxisSubmission):
         if refusal is not None:
             return self._refuse(command, refusal)
         self._accept(command, f"define_position(position={place}, {relative=}, {clear_lag=}, {clear_offset=})")
-        shift = -self._offset if clear_offset else place if relative else place - self.actual_position
         if clear_lag:
             self._set_plan(self.actual_position)
         self._offset += shift
@@ -135,22 +144,33 @@ class AxisReferencing(AxisSubmission):
         self._guarded(self._plan_anew)
         self._commanded = None if commanded is None else commanded + way
 
-    # -- what a homing needs -------------------------------------------------------------------------------------
+    def _homing_port(self, home: HomeConfig) -> HomingPort:
+        """Return what a homing sees and does of this axis."""
+        return HomingPort(
+            config=self.config._replace(home=home),
+            place=lambda: self.set_position,
+            actual=lambda: self.actual_position,
+            switch=lambda: bool(self._table[Q.HOME_INPUT, self._column]),
+            edge=lambda: float(self._table[Q.HOME_LATCH, self._column] + self._table[Q.SHIFT, self._column]),
+            pulse=self._pulse,
+            arm=self._arm_latch,
+            search=self._search,
+            brake=lambda command: self._replan(Job(JobKind.BRAKE, math.nan, self.config.default, command)),
+            show=self._show_phase,
+            guard=self._guard,
+            finish=self._finish_homing,
+            fault=self.fault,
+        )
 
-    def search(self, velocity: float, command: AxisCommand) -> None:
+    def _search(self, velocity: float, command: AxisCommand) -> None:
         """Move with a signed velocity for the homing, software limits aside."""
         limits = self.config.default._replace(velocity=abs(velocity))
         self._replan(Job(JobKind.SEARCH, velocity, limits, command))
 
-    def brake(self, command: AxisCommand) -> None:
-        """Come to rest for the homing."""
-        self._replan(Job(JobKind.BRAKE, math.nan, self.config.default, command))
-
-    def show_phase(self, phase: int) -> None:
-        """Show the phase of the homing."""
+    def _show_phase(self, phase: int) -> None:
         self._table[Q.HOMING, self._column] = phase
 
-    def guard(self, position: float, homing: Homing) -> None:
+    def _guard(self, position: float, homing: Homing) -> None:
         """Tell a homing when the setpoint passes a position, if it is still in the same step then."""
         step: Step = homing.step
 
@@ -163,7 +183,7 @@ class AxisReferencing(AxisSubmission):
         self._bound = Watch(self._column, position, passed)
         self._store.watch(self._bound)
 
-    def finish_homing(self, position: float, command: AxisCommand) -> None:
+    def _finish_homing(self, position: float, command: AxisCommand) -> None:
         """Redefine the present position, end the homing."""
         self._redefine(position)
         self._offset = 0.0
@@ -173,23 +193,12 @@ class AxisReferencing(AxisSubmission):
         self._enter(self._step(AxisEvent.AT_REST))
         self._end(command)
 
-    @property
-    def at_home_input(self) -> bool:
-        """The reference switch is on."""
-        return bool(self._table[Q.HOME_INPUT, self._column])
-
-    @property
-    def home_latch(self) -> float:
-        """Drive position at the last edge of the reference switch, in the present coordinate."""
-        return float(self._table[Q.HOME_LATCH, self._column] + self._table[Q.SHIFT, self._column])
-
-    @property
-    def index_latch(self) -> float | None:
-        """Position of the zero pulse since the latch was armed, in the present coordinate; None while it waits."""
+    def _pulse(self) -> float | None:
+        """Return the zero pulse since the latch was armed, in the present coordinate; None while it waits."""
         if self._table[Q.INDEX_ARMED, self._column] != 0.0:
             return None
         return float(self._table[Q.INDEX_LATCH, self._column] + self._table[Q.SHIFT, self._column])
 
-    def arm_latch(self) -> None:
+    def _arm_latch(self) -> None:
         """Let the drive latch the next zero pulse."""
         self._table[Q.INDEX_ARMED, self._column] = 1.0

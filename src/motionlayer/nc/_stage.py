@@ -30,9 +30,7 @@ class AxisStage:
         self._monitors = Monitors(store, configs)
         self._images: AxisRefs | None = None
         for axis in axes:
-            axis.monitors = self._monitors
-            axis.faulted = self._faulted if groups else None
-            axis.configured = self._configured
+            axis.cycle.attach(self._monitors, self._faulted if groups else None, self._configured)
 
     @property
     def images(self) -> AxisRefs:
@@ -57,7 +55,7 @@ class AxisStage:
         changed = self._store.status_changed
         if changed:
             for column in changed:
-                self._axes[column].drive_changed()
+                self._axes[column].cycle.drive_changed()
             changed.clear()
         if self._faulted:
             react(self._groups, self._faulted, self._axes)
@@ -70,12 +68,12 @@ class AxisStage:
             if failed:
                 self._axes[column].fault(ErrorId.INTERNAL, "the motion cannot be planned with this override")
             else:
-                self._axes[column].override_changed()
+                self._axes[column].cycle.override_changed()
 
     def motion(self, tick: int) -> None:
         """Look at the monitors of this tick, sample the setpoints of the next; let commands end."""
         seen = self._monitors.look()
         for ended in self._store.sample(tick + 1):
-            self._axes[ended.column].profile_ended(ended)
+            self._axes[ended.column].cycle.profile_ended(ended)
         for one in seen:
-            self._axes[one.column].monitored(one)
+            self._axes[one.column].cycle.monitored(one)

@@ -1,13 +1,19 @@
 """How a motion that is commanded becomes the running one, waits for it, or is refused."""
 
 from collections.abc import Callable
+from typing import Final
 
 from motionlayer.command import ErrorId
-from motionlayer.nc._buffer import AT_ONCE, Buffering
+from motionlayer.event import Kind, Level
+from motionlayer.nc._config import BufferMode
 from motionlayer.nc._core import AxisCore
-from motionlayer.nc._motion import Asked, AxisCommand, Job, Refusal, dynamics, least_jerk
+from motionlayer.nc._follower import AT_ONCE, Buffering
+from motionlayer.nc._motion import SCALED, Asked, AxisCommand, Job, JobKind, Refusal, dynamics, least_jerk
 from motionlayer.nc._states import AxisEvent, AxisState
+from motionlayer.nc._ways import turns_back
 from motionlayer.profile import Limits
+
+DYNAMICS: Final = ("velocity", "acceleration", "deceleration", "jerk")
 
 
 class AxisSubmission(AxisCore):
@@ -49,9 +55,23 @@ class AxisSubmission(AxisCore):
             self._refuse(command, job)
         elif joint is not None:
             job.event = event
-            self._follow(job, buffering, text)
+            self._follow(job, buffering, self._told(text, job, buffering))
         else:
-            self._begin(job, state, text)
+            self._begin(job, state, self._told(text, job, buffering))
+
+    def _told(self, text: str, job: Job, buffering: Buffering) -> str:
+        """Return the text of a message with all that is not as usual: the dynamics in force, and when it begins."""
+        first = 0 if job.kind in SCALED else 2  # a brake takes the rest from what it brakes
+        shown = list(zip(DYNAMICS, job.limits, self.config.default, strict=True))[first:]
+        unusual = [f"{name}={value}" for name, value, usual in shown if value != usual and f"({name}=" not in text]
+        if buffering.mode is not BufferMode.ABORTING:
+            unusual.append(f"buffer_mode={buffering.mode.name}")
+        if buffering.blends and buffering.position is not None:
+            unusual.append(f"blending_position={buffering.position}")
+        if job.monitored is not (job.kind is JobKind.POSITION):
+            unusual.append(f"position_monitoring={job.monitored}")
+        separator = "" if text.endswith("()") or not unusual else ", "
+        return f"{text[:-1]}{separator}{', '.join(unusual)})"
 
     def _begin(self, job: Job, state: AxisState, text: str) -> None:
         """Let a motion replace the running one, or refuse it and change nothing."""
@@ -62,6 +82,9 @@ class AxisSubmission(AxisCore):
             self._refuse(command, way)
             return
         self._accept(command, text)
+        if turns_back(job, self._here):
+            text = f"{command.name}: cannot come to rest before {job.target} {self.config.unit}, and turns back"
+            self._tell_of(command, Level.WARNING, Kind.MESSAGE, text, ErrorId.AS_GOOD_AS_POSSIBLE)
         self._drop_follower(by=command)
         if self._job is not None and self._job.command is not None:
             self._end(self._job.command, by=command)

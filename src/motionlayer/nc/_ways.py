@@ -12,12 +12,11 @@ joint.
 """
 
 import math
-from collections.abc import Callable, Mapping
 from typing import Final, NamedTuple
 
 import numpy as np
 
-from motionlayer.nc._config import AxisConfig, BufferMode
+from motionlayer.nc._config import AxisConfig
 from motionlayer.nc._motion import BOUNDED, SCALED, Job, JobKind
 from motionlayer.profile import (
     Limits,
@@ -28,7 +27,6 @@ from motionlayer.profile import (
     plan_stop,
     plan_velocity,
     stop_at,
-    stop_displacement,
 )
 
 HALVINGS: Final = 48
@@ -57,16 +55,6 @@ class Way(NamedTuple):
         """Where the last piece begins."""
         _, p, v, a, _ = self.profile.pieces[-1].tolist()
         return Point(p, v, a)
-
-
-BLENDED: Final[Mapping[BufferMode, Callable[[float, float], float]]] = {
-    BufferMode.BUFFERED: lambda _first, _second: 0.0,
-    BufferMode.BLENDING_LOW: min,
-    BufferMode.BLENDING_PREVIOUS: lambda first, _second: first,
-    BufferMode.BLENDING_NEXT: lambda _first, second: second,
-    BufferMode.BLENDING_HIGH: max,
-}
-"""Speed at the joint, from those of the running job and of the follower."""
 
 
 def scaled(job: Job, factor: float) -> Limits:
@@ -135,6 +123,13 @@ def arrival(start: Point, place: float, limits: Limits) -> float:
     return math.copysign(1.0, place - rest)
 
 
+def turns_back(job: Job, start: Point) -> bool:
+    """Tell whether a job in motion comes to its target position only by turning back."""
+    if start.v == 0.0 or job.kind not in (JobKind.POSITION, JobKind.CONTINUOUS):
+        return False
+    return arrival(start, job.target, job.limits) * start.v < 0.0
+
+
 def through(
     start: Point, place: float, heading: float, speed: float, limits: Limits, highest: float = math.inf
 ) -> Way | None:
@@ -159,7 +154,9 @@ def through(
         late = _gained_late(start, place, heading * speed, limits)
         if late is not None:
             return late
-    reached = _reachable(start, place, heading, speed, _at_least(limits, speed), highest)
+    # Too near to be slowed down, it passes with what remains when its acceleration has been taken back.
+    settled = heading * (start.v + 0.5 * start.a * abs(start.a) / limits.jerk)
+    reached = _reachable(start, place, heading, speed, _at_least(limits, max(speed, settled)), highest)
     if reached is None:
         return None
     if reached == 0.0:
@@ -217,61 +214,3 @@ def joined(first: Profile, second: Profile) -> Profile:
     later[:, 0] += first.duration
     pieces = np.concatenate([first.pieces[:-1], later])
     return Profile(pieces, min(first.low, second.low), max(first.high, second.high))
-
-
-def joint_speeds(
-    config: AxisConfig, mode: BufferMode, first: Limits, heading: float, place: float, job: Job, factor: float
-) -> tuple[float, float]:
-    """Return the speed that a follower asks for at a joint, and the highest one from which it can go on.
-
-    Args:
-        config: of the axis.
-        mode: not ABORTING.
-        first: limits of the running job, with the override.
-        heading: direction in which it arrives.
-        place: position of the joint.
-        job: the follower.
-        factor: override.
-    """
-    limits = scaled(job, factor)
-    asked = BLENDED[mode](first.velocity, 0.0 if job.kind is JobKind.HALT else limits.velocity)
-    if asked == 0.0:
-        return 0.0, math.inf
-    end, slow = _way_out(config, job, heading)
-    if (end - place) * heading <= 0.0:
-        return 0.0, math.inf
-    highest = _brakeable(max(first.velocity, asked), min(slow * factor, asked), abs(end - place), limits)
-    return min(asked, highest), highest
-
-
-def _way_out(config: AxisConfig, job: Job, heading: float) -> tuple[float, float]:
-    """Return up to where a follower may go in the direction of the running job, and the speed it may have there."""
-    if job.kind is JobKind.POSITION:
-        return job.target, 0.0
-    if job.kind is JobKind.CONTINUOUS:
-        return job.target, job.end_speed
-    if job.kind is not JobKind.HALT and job.target * heading < 0.0:
-        return -heading * math.inf, 0.0
-    return limit_ahead(config, heading), 0.0
-
-
-def _brakeable(most: float, end: float, room: float, limits: Limits) -> float:
-    """Return the highest speed, `most` at most, from which `end` is reached within `room`."""
-    if math.isinf(room) or _braking_way(most, end, limits) <= room:
-        return most
-    low, high = end, most
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        if _braking_way(middle, end, limits) <= room:
-            low = middle
-        else:
-            high = middle
-    return low
-
-
-def _braking_way(speed: float, end: float, limits: Limits) -> float:
-    """Return the way from one speed down to another."""
-    if end <= 0.0:
-        return stop_displacement(speed, 0.0, limits.deceleration, limits.jerk)
-    down = plan_velocity(0.0, speed, 0.0, min(end, speed), limits._replace(velocity=speed))
-    return float(down.pieces[-1, 1])

@@ -4,37 +4,19 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Final, Self
+from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from motionlayer.event import Event, Input
 from motionlayer.record._block import MOST_RECORDS, Block, gather
+from motionlayer.record._dimensions import BLOCKS, HASHED_ROWS, LOSSY_BLOCKS, Floats, check, fitting
 from motionlayer.record._errors import TraceError
 from motionlayer.record._pump import Pump
 from motionlayer.record._records import End, Plan, Signal
 from motionlayer.record._sink import Mark, Sink
 from motionlayer.record._trace import Trace
 from motionlayer.record._writer import TraceWriter
-
-Floats = NDArray[np.float64]
-
-HASHED_ROWS: Final = 4
-"""The first rows of the table: set position, velocity, acceleration, actual position."""
-
-BLOCK_BYTES: Final = 1 << 21
-BLOCK_TICKS: Final = (64, 1024)
-"""Least and most ticks of a block: what its thread costs is shared by many, what a crash loses is bounded."""
-
-BLOCKS: Final = 3
-"""One is filled, one is written, one absorbs the jitter between the two."""
-
-LOSSY_BLOCK_NS: Final = 200_000_000
-"""Most time in one block of a recorder that must not wait: what a crash loses is bounded in time as well."""
-
-LOSSY_BLOCKS: Final = 16
-"""Blocks of a recorder that must not wait: a disk that stands still for some seconds costs nothing."""
 
 
 class Recorder:
@@ -71,7 +53,7 @@ class Recorder:
         lossless: bool = True,
         warn: Callable[[str], None] = lambda _text: None,
     ) -> None:
-        _check(table, signals, hashing=hashing, block_ticks=block_ticks)
+        check(table, signals, hashing=hashing, block_ticks=block_ticks)
         self._flat = table.reshape(-1)
         self._index = np.array([signal.index for signal in signals], dtype=np.int64)
         self._path = path
@@ -81,7 +63,7 @@ class Recorder:
         self._writer = _writer(signals, header, path)
         self._sink = Sink(self._writer, hashing=hashing)
         hashed = HASHED_ROWS * table.shape[1] if hashing else 0
-        self._capacity = block_ticks or _fitting(len(signals) + hashed, header["base_cycle_ns"], lossless=lossless)
+        self._capacity = block_ticks or fitting(len(signals) + hashed, header["base_cycle_ns"], lossless=lossless)
         most = sys.maxsize if lossless else MOST_RECORDS
         count = BLOCKS if lossless else LOSSY_BLOCKS
         self._pump = Pump(self._sink, [Block(self._capacity, len(signals), hashed, most) for _ in range(count)])
@@ -267,27 +249,8 @@ class Recorder:
             raise ValueError("the recorder is closed")
 
 
-def _check(table: Floats, signals: Sequence[Signal], *, hashing: bool, block_ticks: int | None) -> None:
-    if table.ndim != 2 or table.dtype != np.float64 or not table.flags.c_contiguous:
-        raise ValueError(f"the table is {table.dtype} of shape {table.shape}; contiguous float64 in 2-D is needed")
-    if hashing and len(table) < HASHED_ROWS:
-        raise ValueError(f"the table has {len(table)} rows; the hash is over its first {HASHED_ROWS}")
-    for signal in signals:
-        if not 0 <= signal.index < table.size:
-            raise ValueError(f"{signal.name}: index {signal.index} is outside of the table's {table.size} values")
-    if block_ticks is not None and block_ticks < 1:
-        raise ValueError(f"blocks of {block_ticks} ticks; at least 1 is needed")
-
-
 def _writer(signals: Sequence[Signal], header: dict[str, Any], path: Path | None) -> TraceWriter | None:
     if path is None and not signals:
         return None
     described = [{"name": signal.name, "unit": signal.unit, "resolution": signal.resolution} for signal in signals]
     return TraceWriter(path, {**header, "signals": described})
-
-
-def _fitting(width: int, base_cycle_ns: int, *, lossless: bool) -> int:
-    """Return how many ticks of so many values make a block."""
-    least, most = BLOCK_TICKS
-    ticks = max(least, min(most, BLOCK_BYTES // (8 * max(width, 1))))
-    return ticks if lossless else max(1, min(ticks, LOSSY_BLOCK_NS // base_cycle_ns))

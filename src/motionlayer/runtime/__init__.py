@@ -7,18 +7,19 @@ in real time, and a `Meter` measures it; what they find reaches a run as a recor
 can be held up, stopped at events, copied and taken back.
 """
 
+from motionlayer.runtime._areas import Area, Areas
 from motionlayer.runtime._breakpoints import Breakpoint
 from motionlayer.runtime._clock import SYSTEM, Clock, SystemClock
 from motionlayer.runtime._conditions import Conditions, collect_young
 from motionlayer.runtime._cycle import Stage, Step
 from motionlayer.runtime._cyclic import CyclicProgram, takes_memory
-from motionlayer.runtime._image import Area, Areas
 from motionlayer.runtime._lateness import LATE, Lateness, late_input
+from motionlayer.runtime._loop import CycleFault
 from motionlayer.runtime._mailbox import Mailbox, MailboxFull, Receipt
 from motionlayer.runtime._meter import Meter
 from motionlayer.runtime._pace import BRAKE, CATCH_UP, FASTEST, SLOWEST, Pace
 from motionlayer.runtime._program import Cancelled, Program
-from motionlayer.runtime._run import CycleFault, Run
+from motionlayer.runtime._run import Run
 from motionlayer.runtime._snapshot import Snapshot
 from motionlayer.runtime._statistics import Histogram, Spread, Statistics
 from motionlayer.runtime._stepping import SteppedRun

@@ -17,6 +17,8 @@ class CyclicProgram(Program):
         since: the first tick in which it may be called.
     """
 
+    advice = "a cyclic program cannot wait; let it return, and look again when it is called in the next cycle"
+
     def __init__(
         self,
         function: Callable[..., None],

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Final
 
 from motionlayer.command import Ledger
-from motionlayer.event import Event, EventLog, Input, Kind, Level
+from motionlayer.event import Device, Event, EventLog, Input, Kind, Level
 from motionlayer.runtime._pace import BRAKE, CATCH_UP
 
 LATE: Final = "late"
@@ -61,4 +61,4 @@ class Lateness:
             self._tell(Level.WARNING, f"{ticks}, to be caught up; {slowest}")
 
     def _tell(self, level: Level, text: str) -> None:
-        self._events.add(Event(self._ledger.tick, level, Kind.MESSAGE, "runtime", text))
+        self._events.add(Event(self._ledger.tick, level, Kind.MESSAGE, "runtime", text, device=Device.Device_Main))

@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterable
 from typing import Final, NamedTuple
 
 from motionlayer.command import Ledger
-from motionlayer.event import Event, EventLog, Input, Kind, Level
+from motionlayer.event import Device, Event, EventLog, Input, Kind, Level
 
 CAPACITY: Final = 100_000
 """Inputs that may wait for the next tick."""
@@ -36,10 +36,11 @@ class Receipt:
         settled: it has been applied and published, or its end is known to be an error.
     """
 
-    __slots__ = ("_error", "_latch", "_tick", "channel", "settled")
+    __slots__ = ("_error", "_latch", "_mailbox", "_tick", "channel", "settled")
 
-    def __init__(self, channel: str) -> None:
+    def __init__(self, channel: str, mailbox: "Mailbox") -> None:
         self.channel = channel
+        self._mailbox = mailbox
         self.settled = False
         self._tick = -1
         self._error: Exception | None = None
@@ -57,9 +58,14 @@ class Receipt:
 
         Raises:
             TimeoutError: it has not been applied by then; it may still be.
-            RuntimeError: the run ended before.
+            RuntimeError: the run ended before, or the thread of the cycle would wait for itself.
             Exception: whatever the handler of the channel raised.
         """
+        if not self.settled and self._mailbox.cycle_thread == threading.get_ident():
+            raise RuntimeError(
+                f"channel {self.channel}: wait() in a tick would hold up the run that it waits for; "
+                "in a program `await run.until(lambda: receipt.settled)`"
+            )
         if not self._latch.acquire(timeout=timeout):
             raise TimeoutError(f"channel {self.channel}: not applied within {timeout:g} s; is the run being stepped?")
         self._latch.release()
@@ -94,6 +100,8 @@ class Mailbox:
         """Inputs that were not taken because the mailbox was full."""
         self.deaf = False
         """In a replay: what is posted is acknowledged, but not applied; what came is in the recording."""
+        self.cycle_thread: int | None = None
+        """The thread whose ticks are under way; it cannot wait for what they bring."""
         self._ledger = ledger
         self._events = events
         self._capacity = capacity
@@ -155,7 +163,7 @@ class Mailbox:
             raise MailboxFull(
                 f"channel {channel}: {self._capacity} inputs wait for the next tick; wait for receipts before more"
             )
-        receipt = Receipt(channel)
+        receipt = Receipt(channel, self)
         self._waiting.append(_Posted(channel, bytes(payload), receipt))
         if self._closed:  # asked after the append: whoever is last, this or `close`, finds what lies there
             self._refuse_waiting()
@@ -243,7 +251,8 @@ class Mailbox:
             self._handlers[one.channel](one.payload)
         except Exception as error:  # noqa: BLE001 - a fault of a client never stops the cycle
             text = f"input of {len(one.payload)} bytes refused: {type(error).__name__}: {error}"
-            self._events.add(Event(one.tick, Level.WARNING, Kind.MESSAGE, f"channel {one.channel}", text))
+            source, main = f"channel {one.channel}", Device.Device_Main
+            self._events.add(Event(one.tick, Level.WARNING, Kind.MESSAGE, source, text, device=main))
             return error
         return None
 

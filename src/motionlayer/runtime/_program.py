@@ -31,7 +31,11 @@ class Program(Command[Any]):
 
     Attributes:
         failure: the exception that left it, if any.
+        warned: lines of which a warning has been given, which is done once.
+        advice: what to do about a wait that has no effect.
     """
+
+    advice: str
 
     def __init__(self, name: str, *, number: int, owner: Command[Any] | None) -> None:
         super().__init__(name, number=number, owner=owner)
@@ -39,6 +43,7 @@ class Program(Command[Any]):
         self.deadlines: list[Deadline] = []
         self.waits_for: Command[Any] | None = None
         self.cancelling = False
+        self.warned: list[str] = []
         self._value: Any = None
 
     def cancel(self) -> None:
@@ -71,6 +76,8 @@ class Program(Command[Any]):
 
 class CoroutineProgram(Program):
     """A running coroutine; its turn goes to the next wait. Cancelled, it is thrown `Cancelled` in the next tick."""
+
+    advice = "write `await` before it"
 
     def __init__(
         self, coroutine: Coroutine[Any, Any, Any], name: str, *, number: int, owner: Command[Any] | None

@@ -21,9 +21,17 @@ class Scheduler:
         events: where the end of programs is told.
         tasks: what calls the cyclic ones.
         on_failure: called with a program that failed and that nobody awaits.
+        on_last: called at the end of the programs step in which the last program has ended.
     """
 
-    def __init__(self, ledger: Ledger, events: EventLog, tasks: Tasks, on_failure: Callable[[Program], None]) -> None:
+    def __init__(
+        self,
+        ledger: Ledger,
+        events: EventLog,
+        tasks: Tasks,
+        on_failure: Callable[[Program], None],
+        on_last: Callable[[], None],
+    ) -> None:
         self.programs: list[Program] = []
         """Programs that have not ended, in order of start."""
         self.failures: list[Program] = []
@@ -35,6 +43,7 @@ class Scheduler:
         self._tasks = tasks
         self._coroutines: list[CoroutineProgram] = []
         self._on_failure = on_failure
+        self._on_last = on_last
         self._ended_waits: dict[int, int] = {}
 
     def start(self, coroutine: Coroutine[Any, Any, Any], name: str) -> CoroutineProgram:
@@ -67,6 +76,7 @@ class Scheduler:
 
     def run(self, tick: int) -> None:
         """Give everyone a turn who is due in this tick: coroutines, then the tasks."""
+        some = bool(self.programs)
         self.waits.end(tick)
         coroutines = self._coroutines
         due = [(program, throw) for program in coroutines for is_due, throw in [self._due(program, tick)] if is_due]
@@ -74,6 +84,8 @@ class Scheduler:
             if program.busy:
                 self._resume(program, throw)
         self._tasks.run(tick, self._turn)
+        if some and not self.programs:
+            self._on_last()
 
     def _begin(self, program: Program) -> None:
         program.activate()
@@ -138,7 +150,16 @@ class Scheduler:
             raise
         finally:
             self._ledger.issuer = None
+            self._tell_forgotten(program)
         self._finish(program, failure)
+
+    def _tell_forgotten(self, program: Program) -> None:
+        """Warn of waits that the program made in this turn and did not await, once for each line."""
+        for name, place in self.waits.forgotten():
+            if place not in program.warned:
+                program.warned.append(place)
+                text = f"{name} at {place} is not awaited, so it does nothing: {program.advice}"
+                self._tell(program, Level.WARNING, Kind.MESSAGE, text)
 
     def _watch(self, program: Program, wait: Command[Any]) -> None:
         """Note when the command that a program waits for ends: it is due from the tick after."""

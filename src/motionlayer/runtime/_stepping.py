@@ -63,7 +63,9 @@ class SteppedRun(Run):
         return self._breakpoints.add(predicate, source, level, kind)
 
     def advance(self, time: float | None = None, *, watch: Callable[[int], None] | None = None) -> Event | None:
-        """Run until a breakpoint is met, the time is over or no program is left. Programs stay as they are.
+        """Run until a breakpoint is met, the time is over, or no program is left and no axis brakes.
+
+        Programs stay as they are.
 
         Args:
             time: seconds of the run, from now; without end where left out.
@@ -79,7 +81,7 @@ class SteppedRun(Run):
             ValueError: the time is negative, NaN or infinite.
         """
         self._require_no_program("run ticks")
-        if time is None and not self._scheduler.programs:
+        if time is None and self._over():
             return None
         self._set_end("advance", time)
         self._breakpoints.arm(on=True)

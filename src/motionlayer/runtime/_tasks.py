@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Final, NamedTuple
 
 from motionlayer.command import Ledger
-from motionlayer.event import Event, EventLog, Kind, Level
+from motionlayer.event import Device, Event, EventLog, Kind, Level
 from motionlayer.runtime._cyclic import CyclicProgram
 from motionlayer.runtime._mailbox import Mailbox, MailboxFull
 from motionlayer.runtime._statistics import Histogram
@@ -182,7 +182,8 @@ class Tasks(Mapping[str, Task]):
         index, ns = _REPORT.unpack(payload)
         task = self._order[index]
         text = f"over its budget: {ns * 1e-6:.3f} ms of {task.budget_ns * 1e-6:.3f} ms; give its programs less to do"
-        self._events.add(Event(self._ledger.tick, Level.WARNING, Kind.MESSAGE, task.label, text))
+        tick, main = self._ledger.tick, Device.Device_Main
+        self._events.add(Event(tick, Level.WARNING, Kind.MESSAGE, task.label, text, device=main))
 
 
 def spread(configs: Sequence[TaskConfig]) -> dict[str, int]:

@@ -2,12 +2,17 @@
 
 They end in the programs step before it is decided who is due, so that who awaits them, alone or in `any_of`, runs in
 that very tick.
+
+`run.sleep(1.0)` without `await` makes a wait and drops it. So those made in a turn of a program are kept until the turn
+ends; what nobody awaits then and nobody else knows can have no effect any more. Ticks between turns cost nothing.
 """
 
 import heapq
+import sys
 from collections.abc import Callable, Generator
 from pathlib import Path
-from typing import Any
+from types import CodeType, FrameType
+from typing import Any, Final
 
 from motionlayer.command import Command, ErrorId, Ledger, MotionError
 
@@ -67,6 +72,10 @@ class Until(Command[None]):
         return held
 
 
+_DROPPED: Final = 3
+"""References to a wait that nobody but `Waits.forgotten` knows: of the record, of its loop, of the question itself."""
+
+
 class Waits:
     """All sleeps and predicates that somebody waits for.
 
@@ -80,7 +89,27 @@ class Waits:
         self._ledger = ledger
         self._sleeps: list[tuple[int, int, Sleep]] = []
         self._untils: list[Until] = []
+        self._made: list[tuple[Sleep | Until, CodeType, int]] = []
         self._count = 0
+
+    def made(self, wait: Sleep | Until, caller: FrameType) -> None:
+        """Note a wait that a program made in its turn, and the line that did; not one of a predicate."""
+        if self._ledger.issuer is not None and not self.asking:
+            self._made.append((wait, caller.f_code, caller.f_lineno))
+
+    def forgotten(self) -> list[tuple[str, str]]:
+        """Return name and place of each wait of the turn that ends now which can have no effect any more."""
+        if not self._made:
+            return []
+        made, self._made = self._made, []
+        found = []
+        for wait, code, line in made:
+            if sys.getrefcount(wait) == _DROPPED and not wait.awaited:
+                # The name alone: the text reaches the hash of the run, which must not depend on where a file lies.
+                found.append(
+                    (wait.name.partition(" at ")[0], f"{Path(code.co_filename).name}:{line} in {code.co_name}")
+                )
+        return found
 
     def add_sleep(self, sleep: Sleep) -> None:
         """End a sleep when its time has come."""

@@ -18,6 +18,9 @@ The argument goes
 4. *States* follow the diagram, nothing moves in a state of rest, and each change has its cause in the events:
    a command, its end, an error. *Commands* live once and end at their targets; what moves the axis serves a
    command that is under way. *Power* comes where it was asked for, and the axis then stands at its set position.
+5. *What was asked* is what is done: the message that accepts a command is its call. Plans lead to its position
+   (told, or worked out from where the command began), go on with its velocity, and were made under its limits;
+   what begins inside a cycle was to wait. What redefines a coordinate has its cause, and in motion its amount.
 
 `TOLERANCES` is published. Tolerances scale with the numbers they apply to, so that the same trace is judged
 the same in µm and in m: `tolerance` gives them sample by sample. A resolution other than lossless widens

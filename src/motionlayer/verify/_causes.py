@@ -63,9 +63,16 @@ def _consequences(axis: Axis, state: Integers, moments: Moments) -> list[Finding
     error = state == State.ERRORSTOP
     soon = error | just_after(error)
     alone = moments.aborted & ~moments.accepted
+    late = soon | (just_before(error) & moments.done)  # who waited for power in error fails when that is cleared
     return [
         *_named(axis, "state cause", moments.faulted & ~soon, state, "an error of the axis, and no ErrorStop follows"),
-        *_named(axis, "command end", moments.failed & ~soon, state, "a command ends with an error, the axis has none"),
+        *_named(
+            axis,
+            "command end",
+            moments.failed & ~late,
+            state,
+            "a command ends with an error, the axis has none",
+        ),
         *_named(axis, "command end", alone, state, "a command is aborted, and no other one was accepted"),
     ]
 

@@ -10,6 +10,7 @@ from motionlayer.event import Kind
 from motionlayer.verify._axis import Axis
 from motionlayer.verify._lives import FOREVER, Life
 from motionlayer.verify._report import Finding
+from motionlayer.verify._requests import MOTIONS, Request, request
 from motionlayer.verify._states import State
 from motionlayer.verify._tolerance import Slack, sample_tolerance
 
@@ -26,6 +27,8 @@ def command_rules(axis: Axis, lives: Lives) -> list[Finding]:
         *_done_in_window(axis, lives),
         *_ended_in(axis, lives, State.STANDSTILL, 1),
         *_ended_in(axis, lives, State.ERRORSTOP, 0),
+        *_ended_in(axis, lives, State.DISABLED, 0),
+        *_aborted(axis, lives),
     ]
 
 
@@ -59,6 +62,23 @@ def _replaced(axis: Axis, lives: Lives) -> list[Finding]:
             text = f"the plan of command {old} is replaced by one of command {new}, and it has not ended"
             found.append(axis.finding("command end", tick, text))
     return found
+
+
+def _aborted(axis: Axis, lives: Lives) -> list[Finding]:
+    """A motion ends aborted where another one begins, the axis is switched off, or a direction is not released."""
+    found, own = [], [life for life in lives.values() if life.source == axis.name and life.kind != Kind.REFUSED]
+    replacing = {(life.accepted, life.number) for life in own if _replaces(request(life.text))}
+    for life in own:
+        if life.kind != Kind.ABORTED or request(life.text).name not in MOTIONS:
+            continue
+        if not any(tick == life.ended and number > life.number for tick, number in replacing):
+            text = f"command {life.number} is aborted, and nothing that replaces it was accepted"
+            found.append(axis.finding("command end", life.ended, text))
+    return found
+
+
+def _replaces(asked: Request) -> bool:
+    return asked.name in (*MOTIONS, "disable") or (asked.name == "enable" and "positive" in asked.values)
 
 
 def _last_plans(axis: Axis) -> dict[int, int]:
@@ -118,7 +138,8 @@ def _endless(axis: Axis, lives: Lives) -> list[Finding]:
 def _done_in_window(axis: Axis, lives: Lives) -> list[Finding]:
     """A positioning that waits for a window of the actual position is done inside it, and after its time there.
 
-    Function-blocks 2.7: the target window, or without one the range window, which has no time.
+    Function-blocks 2.7: the target window, or without one the range window, which has no time. One that hands over to a
+    blended successor does not wait, nor does one that was told so.
     """
     monitor, actual = axis.machine.get("monitor", {}), axis.signals.get("actual_position")
     window = monitor.get("target_window")
@@ -132,12 +153,22 @@ def _done_in_window(axis: Axis, lives: Lives) -> list[Finding]:
         last = life.ended - int(axis.ticks[0])
         if plan is None or axis.curves.kind[plan] != "position" or not 0 <= last < len(actual):
             continue
+        if _handed_over(axis, plan, life) and _blends(axis, plan + 1, lives):
+            continue
+        if not request(life.text).monitored:
+            continue
         since = max(last - rows, int(axis.curves.tick[plan] - axis.ticks[0]), 0)
         off = np.abs(actual[since : last + 1] - axis.curves.target[plan])
         if not (off <= window + wide[since : last + 1]).all():
             text = f"command {life.number} is done outside the window, or too soon in it"
             found.append(axis.finding("done", life.ended, text, value=off.max(), limit=window, unit=axis.unit(0)))
     return found
+
+
+def _blends(axis: Axis, plan: int, lives: Lives) -> bool:
+    """Tell whether a plan serves a command that was to take over in motion."""
+    life = lives.get(int(axis.curves.command[plan]))
+    return life is not None and request(life.text).blends
 
 
 def _plan_when_done(axis: Axis, life: Life) -> int | None:

@@ -26,6 +26,7 @@ class Life:
         accepted: tick.
         ended: tick, `FOREVER` if it did not end within the trace.
         kind: how it ended, or `ACCEPTED`, or `REFUSED`.
+        text: of the event that accepted or refused it.
     """
 
     number: int
@@ -33,11 +34,12 @@ class Life:
     accepted: int
     ended: int
     kind: Kind
+    text: str
 
 
 def _begin(event: Event) -> Life:
     ended = event.tick if event.kind == Kind.REFUSED else FOREVER
-    return Life(event.command, event.source, event.tick, ended, event.kind)
+    return Life(event.command, event.source, event.tick, ended, event.kind, event.text)
 
 
 def _next(life: Life | None, event: Event) -> Life | str:

@@ -17,6 +17,7 @@ class Moments:
 
     Attributes:
         accepted: a command was accepted.
+        enabled: one that asks for power was.
         ended: a command ended, in whichever way.
         done, aborted, failed: a command ended that way.
         faulted: the axis came into error.
@@ -25,6 +26,7 @@ class Moments:
     """
 
     accepted: Flags
+    enabled: Flags
     ended: Flags
     done: Flags
     aborted: Flags
@@ -47,6 +49,7 @@ class Moments:
         )
         return cls(
             accepted=rows(lambda event: event.kind == Kind.ACCEPTED),
+            enabled=rows(lambda event: event.kind == Kind.ACCEPTED and event.text.startswith("enable(")),
             ended=done | aborted | failed,
             done=done,
             aborted=aborted,

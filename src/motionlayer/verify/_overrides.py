@@ -44,17 +44,20 @@ def _shares(axis: Axis, value: Floats, scaled: Flags) -> list[Finding]:
     """The velocity limits of all plans of a command are the override's share of one number, and that of the maximum.
 
     A plan that passes its target faster than the command asked, for the sake of a blended successor, has that velocity
-    as its limit.
+    as its limit. It is above the share of the maximum only where the override fell too late to brake: at most what is
+    left when the acceleration at its start is brought to zero.
     """
     curves, maximum = axis.curves, axis.maximum("velocity")
     share = np.where(scaled & axis.recorded, value[axis.row_taken], 0.0)
     slack = 1.0 + TOLERANCES["limits"].relative
-    high = (share > 0.0) & (curves.velocity > share * maximum * slack)
+    raised = (curves.kind == "passing") & (curves.velocity == np.abs(curves.last_piece()[:, 2]))
+    _, _, v, a, _ = curves.pieces[curves.first[:-1]].T
+    late = raised & (curves.velocity <= np.abs(v + 0.5 * a * np.abs(a) / curves.jerk) * slack)
+    high = (share > 0.0) & ~late & (curves.velocity > share * maximum * slack)
     text = "the velocity limit is above the override's share of the maximum"
     found = axis.findings("override", high, curves.tick, text, value=curves.velocity, limit=share * maximum, order=1)
     asked = curves.velocity / np.where(share > 0.0, share, 1.0)
     first: dict[int, float] = {}
-    raised = (curves.kind == "passing") & (curves.velocity == np.abs(curves.last_piece()[:, 2]))
     state = axis.signals.get("state", np.zeros(len(value)))[axis.row_taken]
     raised |= state == State.HOMING  # its searches have velocities of their own
     for plan in np.flatnonzero((share > 0.0) & (curves.command != 0) & ~raised).tolist():

@@ -14,12 +14,13 @@ QUANTITIES: Final = ("position", "velocity", "acceleration")
 
 
 def machine_maxima(axis: Axis) -> list[Finding]:
-    """Limits of a plan are positive and within the machine; those of `set` equal it."""
+    """Limits of a plan are positive and within the machine; those of `set` equal it until parameters are written."""
     curves, found = axis.curves, []
+    untouched = curves.tick < (axis.written.min() if len(axis.written) else np.inf)
     for order, name in ((1, "velocity"), (2, "acceleration"), (2, "deceleration"), (3, "jerk")):
         limit, most = getattr(curves, name), axis.maximum(name)
         slack = TOLERANCES["limits"].relative * most
-        other = (curves.kind == "set") & (np.abs(limit - most) > slack)
+        other = (curves.kind == "set") & (np.abs(limit - most) > slack) & untouched
         bad = (limit <= 0.0) | (limit > most + slack) | other
         text = f"{name} a plan was made under does not fit the machine's maximum"
         found += axis.findings(

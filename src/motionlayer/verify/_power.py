@@ -1,8 +1,9 @@
 """Rules over power: `enable` is what the axis asks its drive for, `ready` what the drive says.
 
-A drive answers in the inputs of a tick what was asked until the tick before. It may lose its power at any time; it gets
-it only where it is asked for. Losing it although it is asked for is an error, and with that the request is withdrawn:
-set and actual position part (decision 0013), and no drive runs after a set position that it has not stood at.
+A drive answers in the inputs of a tick what was asked until then: in the tick before, or between both. It may lose its
+power at any time; it gets it only where it is asked for. Losing it although it is asked for is an error, and with that
+the request is withdrawn: set and actual position part (decision 0013), and no drive runs after a set position that it
+has not stood at.
 """
 
 from typing import Final
@@ -33,7 +34,7 @@ def power_rules(axis: Axis, moments: Moments) -> list[Finding]:
     if found or not np.isin(state, [float(one) for one in State]).all():
         return found
     found = _requests(axis, state == State.ERRORSTOP, enable.astype(np.int64), moments)
-    found += _answers(axis, enable == 1.0, ready.astype(np.int64))
+    found += _answers(axis, enable == 1.0, ready.astype(np.int64), moments)
     return found + _states(axis, state.astype(np.int64), enable == 1.0, ready == 1.0, moments)
 
 
@@ -46,16 +47,17 @@ def _requests(axis: Axis, error: Flags, enable: Integers, moments: Moments) -> l
     """Power is asked for because of a command, and no longer because of a command or an error."""
     change = changes(enable)
     change[0] = enable[0] == 1 and axis.ticks[0] == 0
-    on = change & (enable == 1) & ~moments.accepted
+    on = change & (enable == 1) & ~moments.enabled
     off = change & (enable == 0) & ~moments.busy_before & ~error
     found = _named(axis, on, enable, "power is asked for without a command")
     return found + _named(axis, off, enable, "power is taken away without a command or an error")
 
 
-def _answers(axis: Axis, enable: Flags, ready: Integers) -> list[Finding]:
+def _answers(axis: Axis, enable: Flags, ready: Integers, moments: Moments) -> list[Finding]:
     """A drive gets power if it was asked to, and the set position is then where it stands."""
     up = changes(ready) & (ready == 1)
-    found = _named(axis, up & ~just_before(enable), ready, "the drive got power that nobody asked for")
+    asked = just_before(enable) | (enable & moments.enabled)
+    found = _named(axis, up & ~asked, ready, "the drive got power that nobody asked for")
     if "actual_position" not in axis.signals:
         return found
     actual, planned = axis.signals["actual_position"], axis.signals["set_position"]

@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 
 from motionlayer.verify._axis import LIMITS, Axis
-from motionlayer.verify._curves import Flags, Floats
+from motionlayer.verify._curves import Flags, Floats, Integers
 from motionlayer.verify._report import Finding
 from motionlayer.verify._tolerance import TOLERANCES, Slack, differs, sample_tolerance
 
@@ -60,8 +60,9 @@ def _settled(axis: Axis, side: str) -> Floats:
 
 
 def differences(axis: Axis) -> list[Finding]:
-    """From the samples alone: over each cycle they fit one another within the jerk limit in force.
+    """From the samples alone: over each cycle they fit one another within the jerk limit of the plan they belong to.
 
+    Where one plan takes over from another inside the cycle, that is the larger limit of both.
     With |jerk| <= J and both ends known, v differs from the trapezoid of a by at most J dt²/4, and p from the
     trapezoid of v by at most J dt³/12.
     """
@@ -70,12 +71,14 @@ def differences(axis: Axis) -> list[Finding]:
     p, v, a = (axis.signals[signal] for signal, _, _ in SET)
     wide_p, wide_v, wide_a = (sample_tolerance(axis, signal) for signal, _, _ in SET)
     joint, slack = _joints(axis), Slack.of(axis.curves)
+    driving = _driving(axis)
+    before = driving - joint
     wide_p, wide_v, wide_a = (
-        wide[1:] + wide[:-1] + np.where(joint, step[axis.serving[:-1]], 0.0)
+        wide[1:] + wide[:-1] + np.where(joint, step[before], 0.0)
         for wide, step in ((wide_p, slack.p), (wide_v, slack.v), (wide_a, slack.a))
     )
-    dt, limit = axis.dt, axis.limit("max_jerk")
-    jerk = np.maximum(limit[1:], limit[:-1]) * (1.0 + TOLERANCES["plan limits"].relative)
+    dt, limit = axis.dt, np.maximum(axis.curves.jerk[driving], axis.curves.jerk[before])
+    jerk = limit * (1.0 + TOLERANCES["plan limits"].relative)
     cases = (
         ("jerk", np.diff(a) / dt, jerk, wide_a / dt, 3),
         ("velocity", np.diff(v) - dt * (a[1:] + a[:-1]) / 2, jerk * dt**2 / 4, wide_v + dt * wide_a, 1),
@@ -91,9 +94,16 @@ def differences(axis: Axis) -> list[Finding]:
     return found
 
 
+def _driving(axis: Axis) -> Integers:
+    """Return for each cycle the plan it ends in: not one that only shows a coordinate that was redefined."""
+    plan = np.arange(len(axis.curves), dtype=np.int64)
+    moves = np.maximum.accumulate(np.where(axis.curves.redefines, 0, plan))
+    return np.asarray(moves[axis.serving[1:]], np.int64)
+
+
 def _joints(axis: Axis) -> Flags:
     """Tell for each cycle whether a plan begins inside: there the one before it may end beside its target."""
-    plan = axis.serving[1:]
+    plan = _driving(axis)
     return np.asarray(axis.curves.inside[plan] & (axis.curves.tick[plan] == axis.ticks[:-1]))
 
 

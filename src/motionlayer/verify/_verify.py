@@ -4,13 +4,16 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Final
 
 from motionlayer.verify import _bounds, _drives, _plans, _samples
+from motionlayer.verify._asked import asked_rules
 from motionlayer.verify._axis import Axis
 from motionlayer.verify._causes import cause_rules
 from motionlayer.verify._commands import command_rules
+from motionlayer.verify._dynamics import dynamics_rules
 from motionlayer.verify._lives import Life, life_findings, read_lives
 from motionlayer.verify._moments import Moments
 from motionlayer.verify._overrides import override_rules
 from motionlayer.verify._power import power_rules
+from motionlayer.verify._redefinitions import redefinition_rules
 from motionlayer.verify._report import Finding, Report
 from motionlayer.verify._resolve import broken_off, missing_rows, not_judged, unresolved_axis, unresolved_trace
 from motionlayer.verify._software_limits import software_limits
@@ -93,7 +96,9 @@ def _judge(trace: "Trace", name: str, lives: Mapping[int, Life]) -> list[Finding
     findings = [finding for rule in RULES for finding in rule(axis)]
     moments = Moments.of(axis, trace.events, lives)
     findings += [*state_rules(axis), *cause_rules(axis, moments, lives), *power_rules(axis, moments)]
-    return [*findings, *override_rules(axis, lives), *command_rules(axis, lives)]
+    findings += [*override_rules(axis, lives), *command_rules(axis, lives)]
+    findings += [*asked_rules(axis, lives), *dynamics_rules(axis, lives)]
+    return [*findings, *redefinition_rules(axis, lives)]
 
 
 def assert_valid(trace: "Trace", *, partial: bool = False) -> None:

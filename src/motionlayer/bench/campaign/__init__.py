@@ -7,18 +7,20 @@ The same code runs as a test for some seconds and as a campaign for hours.
 `planning` random states of the planner, in families: a refused plan or one that breaks an independent rule fails
 `life`     random machines whose programs command, override, fail and get cancelled; judged by `motionlayer.verify` and
            by the rules of a command's life
-`mutation` one sample of a valid trace is changed by 10 to 10⁶ times its tolerance; `motionlayer.verify` must find it
+`blocks`   random calls of function blocks on axes whose drives fail; every call is observed, the trace is judged
+`mutation` a sample, plan or event of a valid trace is changed, or what was asked for; `motionlayer.verify` must find it
 ========== ==========================================================================================================
 """
 
 from typing import Final
 
+from motionlayer.bench.campaign._blocks import BLOCKS
 from motionlayer.bench.campaign._campaign import Campaign, Failure
 from motionlayer.bench.campaign._life import LIFE
 from motionlayer.bench.campaign._mutation import MUTATION
 from motionlayer.bench.campaign._planning import PLANNING
 from motionlayer.bench.campaign._pursuit import State, StateError, pursue, repeat, resume
 
-CAMPAIGNS: Final = {campaign.name: campaign for campaign in (PLANNING, LIFE, MUTATION)}
+CAMPAIGNS: Final = {campaign.name: campaign for campaign in (PLANNING, LIFE, BLOCKS, MUTATION)}
 
 __all__ = ["CAMPAIGNS", "Campaign", "Failure", "State", "StateError", "pursue", "repeat", "resume"]

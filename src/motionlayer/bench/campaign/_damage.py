@@ -53,11 +53,13 @@ def _changed(trace: Trace, name: str, row: int, value: float) -> Trace:
     return trace.replace({name: values})
 
 
-def _pick(rng: np.random.Generator, rows: Sequence[int] | NDArray[np.int64]) -> int | None:
+def pick(rng: np.random.Generator, rows: Sequence[int] | NDArray[np.int64]) -> int | None:
+    """Draw one of some numbers; None if there is none."""
     return int(rows[int(rng.integers(0, len(rows)))]) if len(rows) else None
 
 
-def _axes(trace: Trace) -> Mapping[str, Any]:
+def axes_of(trace: Trace) -> Mapping[str, Any]:
+    """Return the axes of the machine of a trace."""
     axes: Mapping[str, Any] = trace.header["machine"]["axis"]
     return axes
 
@@ -81,16 +83,16 @@ def resample(trace: Trace, name: str, row: int, factor: float) -> Damage:
 def _judged(trace: Trace, name: str) -> bool:
     """Tell whether a signal has a tolerance: a drive that lags has its own actual position, no limit has no edge."""
     axis, _, signal = name.rpartition(".")
-    if signal == "actual_position" and _axes(trace)[axis]["drive"]["kind"] != "ideal":
+    if signal == "actual_position" and axes_of(trace)[axis]["drive"]["kind"] != "ideal":
         return False
     return signal in SIGNALS and bool(np.isfinite(trace[name]).all())
 
 
 def state(rng: np.random.Generator, trace: Trace) -> Damage | None:
     """Give an axis that moves another state in one row."""
-    axis = str(rng.choice(list(_axes(trace))))
+    axis = str(rng.choice(list(axes_of(trace))))
     name, v = f"{axis}.state", trace[f"{axis}.set_velocity"]
-    row = _pick(rng, np.flatnonzero((v[1:-1] != 0.0) & (v[2:] != 0.0)) + 1)
+    row = pick(rng, np.flatnonzero((v[1:-1] != 0.0) & (v[2:] != 0.0)) + 1)
     if row is None:
         return None
     other = float(rng.choice([number for number in STATES if number != trace[name][row]]))
@@ -100,10 +102,10 @@ def state(rng: np.random.Generator, trace: Trace) -> Damage | None:
 
 def power(rng: np.random.Generator, trace: Trace) -> Damage | None:
     """Turn the request for power, or its answer, over in one row, away from errors and commands."""
-    axis, signal = str(rng.choice(list(_axes(trace)))), str(rng.choice(["enable", "ready"]))
+    axis, signal = str(rng.choice(list(axes_of(trace)))), str(rng.choice(["enable", "ready"]))
     told = [event.tick for event in trace.events if event.source == axis]
     quiet = ~np.isin(trace.ticks, told) & (trace[f"{axis}.state"] != ERRORSTOP)
-    row = _pick(rng, np.flatnonzero(quiet[:-2] & quiet[1:-1] & quiet[2:]) + 1)
+    row = pick(rng, np.flatnonzero(quiet[:-2] & quiet[1:-1] & quiet[2:]) + 1)
     if row is None:
         return None
     name = f"{axis}.{signal}"
@@ -112,21 +114,22 @@ def power(rng: np.random.Generator, trace: Trace) -> Damage | None:
 
 def override(rng: np.random.Generator, trace: Trace) -> Damage | None:
     """Change the override in one row while a motion that it scales is under way."""
-    axis = str(rng.choice(list(_axes(trace))))
+    axis = str(rng.choice(list(axes_of(trace))))
     name, plans = f"{axis}.override", [plan for plan in trace.plans if plan.axis == axis]
     ends = {event.command: event.tick for event in trace.events if event.kind != Kind.ACCEPTED}
     last, spans = len(trace.ticks) - 1, []
     for plan, after in zip(plans, [*(plan.tick for plan in plans[1:]), last], strict=True):
         if plan.kind in ("position", "velocity") and plan.command:
             spans += list(range(plan.tick + 1, min(after, ends.get(plan.command, last), last)))
-    row = _pick(rng, spans)
+    row = pick(rng, spans)
     if row is None:
         return None
     other = float(rng.uniform(0.0, 1.0))
     return Damage(f"{name} in row {row}: {other!r}", _changed(trace, name, row, other), axis)
 
 
-def _copy(trace: Trace, **attributes: tuple[Any, ...]) -> Trace:
+def copied(trace: Trace, **attributes: tuple[Any, ...]) -> Trace:
+    """Return a trace with other plans or events."""
     other = trace.replace({})
     other.__dict__.update(attributes)
     return other
@@ -137,14 +140,13 @@ def plan_limit(rng: np.random.Generator, trace: Trace) -> Damage:
     index, field = int(rng.integers(0, len(trace.plans))), str(rng.choice(LIMITS))
     factor = 1.0 + float(rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-12.0, -0.5))
     plan = trace.plans[index]
-    return _replanned(
-        trace, index, f"{field} times {factor!r}", replace(plan, **{field: factor * getattr(plan, field)})
-    )
+    return replanned(trace, index, f"{field} times {factor!r}", replace(plan, **{field: factor * getattr(plan, field)}))
 
 
-def _replanned(trace: Trace, index: int, text: str, plan: Plan) -> Damage:
+def replanned(trace: Trace, index: int, text: str, plan: Plan) -> Damage:
+    """Return the damage that another plan does in the place of one."""
     plans = (*trace.plans[:index], plan, *trace.plans[index + 1 :])
-    return Damage(f"plan {index} of {plan.axis}, tick {plan.tick}: {text}", _copy(trace, plans=plans), plan.axis)
+    return Damage(f"plan {index} of {plan.axis}, tick {plan.tick}: {text}", copied(trace, plans=plans), plan.axis)
 
 
 def _moving(trace: Trace) -> list[int]:
@@ -153,7 +155,7 @@ def _moving(trace: Trace) -> list[int]:
 
 def plan_piece(rng: np.random.Generator, trace: Trace) -> Damage | None:
     """Change a number of a piece that lasts: its time, p, v, a or jerk."""
-    index = _pick(rng, _moving(trace))
+    index = pick(rng, _moving(trace))
     if index is None:
         return None
     plan, dt = trace.plans[index], trace.base_cycle
@@ -162,29 +164,29 @@ def plan_piece(rng: np.random.Generator, trace: Trace) -> Damage | None:
     lasting = (
         lasting[(lasting == 0) | np.append(False, np.diff(pieces[:, 4]) != 0.0)[lasting]] if not column else lasting
     )
-    row = _pick(rng, lasting)
+    row = pick(rng, lasting)
     if row is None:
         return None
-    axis = _axes(trace)[plan.axis]
+    axis = axes_of(trace)[plan.axis]
     v, a, j = axis["max_velocity"], axis["max_acceleration"], axis["max_jerk"]
     step = float(rng.choice([-1.0, 1.0])) * SHARE * (dt, v * dt, min(v, a * dt), min(a, j * dt), j)[column]
     pieces[row, column] += step
-    return _replanned(trace, index, f"piece {row}, column {column}: {step:+.6g}", replace(plan, pieces=pieces))
+    return replanned(trace, index, f"piece {row}, column {column}: {step:+.6g}", replace(plan, pieces=pieces))
 
 
 def plan_place(rng: np.random.Generator, trace: Trace) -> Damage | None:
     """Move a plan that moves the axis by a tick, give it another target, or another command."""
-    index = _pick(rng, _moving(trace))
+    index = pick(rng, _moving(trace))
     if index is None:
         return None
     plan, sign = trace.plans[index], int(rng.choice([-1, 1]))
     what = str(rng.choice(["tick", "target", "command"]))
     if what == "tick":
-        return _replanned(trace, index, f"tick {sign:+d}", replace(plan, tick=plan.tick + sign))
+        return replanned(trace, index, f"tick {sign:+d}", replace(plan, tick=plan.tick + sign))
     if what == "target" and plan.kind != "stop":
-        target = plan.target + sign * SHARE * _axes(trace)[plan.axis]["max_velocity"]
-        return _replanned(trace, index, f"target {target!r}", replace(plan, target=target))
-    return _replanned(trace, index, f"command {plan.command + 1000}", replace(plan, command=plan.command + 1000))
+        target = plan.target + sign * SHARE * axes_of(trace)[plan.axis]["max_velocity"]
+        return replanned(trace, index, f"target {target!r}", replace(plan, target=target))
+    return replanned(trace, index, f"command {plan.command + 1000}", replace(plan, command=plan.command + 1000))
 
 
 def plan_dropped(rng: np.random.Generator, trace: Trace) -> Damage | None:
@@ -195,34 +197,37 @@ def plan_dropped(rng: np.random.Generator, trace: Trace) -> Damage | None:
         if plan.command not in seen and len(plan.pieces) > 1:
             first.append(index)
         seen.add(plan.command)
-    chosen = _pick(rng, first)
+    chosen = pick(rng, first)
     if chosen is None:
         return None
     plan = trace.plans[chosen]
     text = f"plan {chosen} of {plan.axis}, tick {plan.tick}: left out"
-    return Damage(text, _copy(trace, plans=(*trace.plans[:chosen], *trace.plans[chosen + 1 :])), plan.axis)
+    return Damage(text, copied(trace, plans=(*trace.plans[:chosen], *trace.plans[chosen + 1 :])), plan.axis)
 
 
 def event(rng: np.random.Generator, trace: Trace) -> Damage | None:
     """Leave out an event of a command that moves an axis, or of an error, or give the event another kind."""
     moving = {plan.command for plan in trace.plans if len(plan.pieces) > 1} - {0}
-    index = _pick(rng, [k for k in range(len(trace.events)) if _telling(trace, k, moving)])
+    index = pick(rng, [k for k in range(len(trace.events)) if _telling(trace, k, moving)])
     if index is None:
         return None
     told = trace.events[index]
     without = (*trace.events[:index], *trace.events[index + 1 :])
     if told.kind == Kind.MESSAGE or rng.random() < 0.5:
-        return Damage(f"left out: {told}", _copy(trace, events=without), told.source)
-    kinds = [kind for kind in Kind if kind not in (told.kind, Kind.MESSAGE)]
+        return Damage(f"left out: {told}", copied(trace, events=without), told.source)
+    unlike = [told.kind, Kind.MESSAGE]
+    if told.kind == Kind.ERROR and trace[f"{told.source}.set_velocity"][told.tick] == 0.0:
+        unlike.append(Kind.DONE)  # what rests may be done in the tick of an error
+    kinds = [kind for kind in Kind if kind not in unlike]
     other = told._replace(kind=Kind(str(rng.choice(kinds))))
     events = (*trace.events[:index], other, *trace.events[index + 1 :])
-    return Damage(f"{other.kind} instead of {told}", _copy(trace, events=events), told.source)
+    return Damage(f"{other.kind} instead of {told}", copied(trace, events=events), told.source)
 
 
 def _telling(trace: Trace, index: int, moving: set[int]) -> bool:
     """Tell whether an event is the only one that tells what the samples show."""
     told: Event = trace.events[index]
-    if told.source not in _axes(trace) or told.tick >= trace.ticks[-1]:
+    if told.source not in axes_of(trace) or told.tick >= trace.ticks[-1]:
         return False
     if told.kind == Kind.MESSAGE:
         if told.level != Level.ERROR or trace[f"{told.source}.state"][max(told.tick - 1, 0)] == ERRORSTOP:

@@ -9,7 +9,8 @@ import pprint
 from typing import Any, Final, NamedTuple
 
 from motionlayer.bench.campaign import _machines
-from motionlayer.bench.campaign._acts import PURPOSE, Part, parts, play
+from motionlayer.bench.campaign._acts import Part, parts
+from motionlayer.bench.campaign._calls import PURPOSE, play
 from motionlayer.bench.campaign._campaign import Campaign, Failure, judged, stream
 from motionlayer.command import Command, ErrorId
 from motionlayer.event import Kind
@@ -41,7 +42,13 @@ def life(seed: int, case: int) -> Life:
 
 def live(case: Life) -> tuple[Trace, list[Command[Any]]]:
     """Run a case; return its trace and its commands."""
-    run = Simulation(Machine.from_dict(case.machine))
+    run, commands = perform(case)
+    return run.trace, commands
+
+
+def perform(case: Life, *, trace: bool = True) -> tuple[Simulation, list[Command[Any]]]:
+    """Run a case, with or without recording it; return the run and its commands."""
+    run = Simulation(Machine.from_dict(case.machine), trace=trace)
     given: list[Command[Any]] = [axis.enable() for axis in run.axes.values()]
     run.step(2)
     reach = {name: _reach(run, name) for name in run.axes}
@@ -55,7 +62,7 @@ def live(case: Life) -> tuple[Trace, list[Command[Any]]]:
 
     run.start(canceller(), "canceller")
     run.run(time=(TICKS - run.tick) * run.base_cycle_ns * 1e-9)
-    return run.trace, given + programs
+    return run, given + programs
 
 
 def _reach(run: Simulation, name: str) -> tuple[float, float]:

@@ -1,4 +1,4 @@
-"""Random machines: axes of any size in several units, with and without software limits, a reference switch, a servo."""
+"""Random machines: axes of any size in several units, with and without software limits, a reference, a servo."""
 
 from typing import Any, Final
 
@@ -62,6 +62,9 @@ def _axis(rng: np.random.Generator, cycle: float) -> dict[str, Any]:
     axis["start_position"] = rng.uniform(1.2 * low, 1.2 * high)  # a few of them outside
     if rng.random() < 0.4:
         axis["home"] = _home(rng, low, high, velocity)
+    step = velocity * 10.0 ** rng.uniform(-3.0, -1.0)
+    axis["manual"] = {"forward": step, "backward": step * rng.uniform(0.5, 2.0)}
+    axis["modulo"] = {"period": (high - low) * 10.0 ** rng.uniform(-1.0, 0.5), "tolerance": step}
     if rng.random() < SERVOS:
         axis["drive"] = _servo(rng, velocity, cycle)
         axis["monitor"] = _monitor(rng, velocity)
@@ -92,15 +95,28 @@ def _monitor(rng: np.random.Generator, velocity: float) -> dict[str, Any]:
         monitor = {"lag": velocity * 10.0 ** rng.uniform(-2.5, -0.5), "lag_time": float(rng.choice([0.0, 0.01]))}
     if rng.random() < 0.5:
         monitor |= {"target_window": velocity * 10.0 ** rng.uniform(-4.0, -2.0), "target_time": 0.004}
+    elif rng.random() < 0.3:
+        monitor["range_window"] = velocity * 10.0 ** rng.uniform(-4.0, -2.0)
     return monitor
 
 
 def _home(rng: np.random.Generator, low: float, high: float, velocity: float) -> dict[str, Any]:
-    if rng.random() < 0.3:
-        return {"mode": "direct", "position": 0.0}
-    return {
-        "mode": "switch",
+    mode = str(rng.choice(["direct", "switch", "cam", "index"]))
+    if mode == "direct":
+        return {"mode": mode, "position": 0.0}
+    search = velocity * rng.uniform(0.1, 0.5)
+    home: dict[str, Any] = {
+        "mode": mode,
         "switch": rng.uniform(low, high),
-        "velocity": velocity * rng.uniform(0.1, 0.5),
+        "velocity": search,
         "direction": str(rng.choice(["negative", "positive"])),
     }
+    if rng.random() < 0.5:
+        home["sync_velocity"] = search * rng.uniform(0.1, 1.0)
+    if rng.random() < 0.3:
+        home["travel"] = (high - low) * rng.uniform(0.1, 2.0)
+    if mode == "index":
+        home["pulse_period"] = (high - low) * rng.uniform(0.01, 0.3)
+        home["pulse"] = rng.uniform(low, high)
+        home["pulse_distance"] = home["pulse_period"] * float(rng.choice([0.0, 0.0, 0.1]))
+    return home

@@ -5,7 +5,9 @@ from typing import Final
 import numpy as np
 
 from motionlayer.bench.campaign._campaign import Campaign, Failure, judged, stream
-from motionlayer.bench.campaign._damage import OPERATORS, Damage, sample
+from motionlayer.bench.campaign._damage import OPERATORS as RECORDS
+from motionlayer.bench.campaign._damage import Damage, sample
+from motionlayer.bench.campaign._damage_asked import FOLLOWING
 from motionlayer.bench.campaign._life import life, live
 from motionlayer.record import Trace
 from motionlayer.verify import verify
@@ -14,6 +16,8 @@ BATCH: Final = 50
 """Mutations of one trace."""
 
 STREAM: Final = 3
+
+OPERATORS: Final = {**RECORDS, **FOLLOWING}
 
 
 def mutation(seed: int, case: int, trace: Trace) -> Damage:

@@ -42,7 +42,9 @@ AXIS: Final = {
         "positioning, by its monitor",
     ),
     E.NO_MOTION: ErrorText(
-        "the axis does not move though it should", "look for what holds it: brake, mechanics, drive"
+        "the axis does not move though it should",
+        "look for what holds it: brake, mechanics, drive; see motion_window and motion_time",
+        "the motion monitor",
     ),
     E.START_VELOCITY: ErrorText("start velocity not permitted"),
     E.END_VELOCITY: ErrorText("end velocity not permitted", "see max_velocity"),

@@ -17,15 +17,17 @@ BLOCKS: Final = {
     E.MODE_INVALID: ErrorText(
         "mode not valid, such as the direction of a modulo move",
         "see the directions of the command",
-        "modulo moves, by their `direction`",
+        "modulo moves, by their `direction`; blocks, by a mode that does not exist",
     ),
     E.COMMAND_NOT_PERMITTED: ErrorText(
         "command not permitted, such as an endless move without direction",
         "give Direction.POSITIVE, NEGATIVE or CURRENT; read a bool parameter with the bool block",
-        "endless moves, by their `direction`",
+        "endless moves, by their `direction`; parameters, by their number",
     ),
     E.PARAMETER: ErrorText(
-        "parameter out of range", "see the range in the message", "every command and the override, by their numbers"
+        "parameter out of range",
+        "see the range in the message",
+        "every command, the override and parameters, by their numbers",
     ),
     E.POSITIONING_TIMEOUT: ErrorText("timeout after a positioning", "see target_window; look for what holds the axis"),
     E.PROTECTED: ErrorText("the axis is in protected mode", "decouple it first, or allow motion commands to slaves"),

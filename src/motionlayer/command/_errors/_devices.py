@@ -11,8 +11,16 @@ DEVICES: Final = {
     E.MODULO_FACTOR: ErrorText("modulo factor outside 1 to 1e9"),
     E.REFERENCE_POSITION: ErrorText("reference position not valid"),
     E.MODULO_TOLERANCE: ErrorText("tolerance window of the modulo start not valid"),
-    E.REFERENCE_MODE: ErrorText("reference mode not valid or not supported"),
-    E.SET_POSITION_RANGE: ErrorText("the set position would leave the range of values"),
+    E.REFERENCE_MODE: ErrorText(
+        "reference mode not valid or not supported",
+        "take one of the reference modes in the message",
+        "MC_Home, by its `ReferenceMode`",
+    ),
+    E.SET_POSITION_RANGE: ErrorText(
+        "the set position would leave the range of values",
+        "stay within the range in the message",
+        "moves, homing and setting a position, by their position",
+    ),
     E.LIMIT_MIN_PARAMETER: ErrorText("minimum software limit not valid"),
     E.LIMIT_MAX_PARAMETER: ErrorText("maximum software limit not valid"),
     E.LATCH_ARMED_BY_HOMING: ErrorText("the latch is already armed by a homing"),
@@ -48,7 +56,11 @@ DEVICES: Final = {
     E.LAG: ErrorText(
         "position lag too large for too long", "see lag and lag_time; look for what holds it", "the lag monitor"
     ),
-    E.VELOCITY_LAG: ErrorText("velocity lag too large for too long", "look for what holds the axis"),
+    E.VELOCITY_LAG: ErrorText(
+        "velocity lag too large for too long",
+        "see velocity_lag and velocity_lag_time; look for what holds the axis",
+        "the monitor of the velocity lag",
+    ),
     E.REFERENCE_VELOCITY: ErrorText("reference velocity not valid"),
     E.OUTPUT_LIMITS: ErrorText("limits of the output not valid"),
     E.DRIVE_NOT_READY: ErrorText(

@@ -20,7 +20,7 @@ GROUP: Final = {
     E.GROUP_BUSY: ErrorText(
         "the axis is busy and takes no such command now",
         "halt the axis first, or set the position relative to where it is",
-        "setting an absolute position while the axis moves",
+        "setting an absolute position, a software limit or a maximum while the axis moves",
     ),
     E.VELOCITY: ErrorText(
         "velocity not positive or above the maximum", "see max_velocity", "moves, by their `velocity`"
@@ -107,7 +107,9 @@ GROUP: Final = {
     ),
     E.SLAVE_WITHOUT_TABLE: ErrorText("table slave without an active table"),
     E.FUNCTION_NOT_ALLOWED: ErrorText(
-        "function not allowed", "switch the external set-point generator off, or the coupling, before the axis is moved"
+        "function not allowed",
+        "name a persistent_file in the machine file; switch a coupling off before the axis is moved",
+        "parameters to be written persistently, without a file for them",
     ),
     E.SLAVE_TABLE_IN_USE: ErrorText("table of the slave in use"),
     E.BUSY_WHILE_COUPLING: ErrorText("master or slave is busy when coupling", "wait until both rest"),
@@ -146,7 +148,11 @@ GROUP: Final = {
         "moves, by their `position` or `distance`",
     ),
     E.NEW_TRAVEL_VELOCITY: ErrorText("new travel velocity not valid", "see max_velocity"),
-    E.AS_GOOD_AS_POSSIBLE: ErrorText("warning: the command was done as well as possible"),
+    E.AS_GOOD_AS_POSSIBLE: ErrorText(
+        "warning: the command was done as well as possible",
+        "the axis turns back to its target; command it earlier, or with a stronger deceleration",
+        "a message about a move in motion that turns back; the move is not refused",
+    ),
     E.OVERRUN: ErrorText(
         "the way to the target would leave the software limits",
         "brake harder, or stop before the new command",

@@ -174,9 +174,8 @@ class LogFolder:
         if self._failing:  # until all is written, and on the disk
             return
         self._failing = True
-        way_out = _HOPES.get(error.errno or 0, "mend that")
-        self.trouble = (
-            f"messages cannot be written into {self._folder}: {error.strerror}; {way_out}: lines are kept "
-            f"up to {self._bound} bytes and tried again"
+        self.trouble = f"{error.strerror}; {_HOPES.get(error.errno or 0, 'mend that')}"
+        self._on_trouble(
+            f"messages cannot be written into {self._folder}: {self.trouble}: lines are kept up to {self._bound} bytes "
+            "and tried again"
         )
-        self._on_trouble(self.trouble)

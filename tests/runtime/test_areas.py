@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from motionlayer.command import Ledger
 from motionlayer.event import EventLog, Level
 from motionlayer.runtime import Areas, Mailbox, MailboxFull, Receipt, Run, TaskConfig
-from motionlayer.runtime._image import Area
+from motionlayer.runtime._areas import Area
 from tests.runtime.bare import bare
 
 SIZE = 100
