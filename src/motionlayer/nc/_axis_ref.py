@@ -47,6 +47,14 @@ class StateDWord(enum.IntFlag):
     Error = 1 << 31
 
 
+HOMED: Final = int(StateDWord.Homed)
+HAS_JOB: Final = int(StateDWord.HasJob)
+BEEN_STOPPED: Final = int(StateDWord.HasBeenStopped)
+NEW_TARGET: Final = int(StateDWord.NewTargetPos)
+BUFFERED: Final = int(StateDWord.CmdBuffered)
+"""Bits that change with commands, as the axis writes them."""
+
+
 class OpModeDWord(enum.IntFlag):
     """Bits 0 to 23 of `NcToPlc.OpModeDWord`; 24 to 31 count the cycles."""
 

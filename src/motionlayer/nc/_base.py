@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 from motionlayer.command import ERRORS, Command, ErrorId, Ledger, MotionError
 from motionlayer.event import Event, EventLog, Kind, Level, Subdevice
-from motionlayer.nc._axis_ref import StateDWord
+from motionlayer.nc._axis_ref import HOMED, StateDWord
 from motionlayer.nc._config import AxisConfig
 from motionlayer.nc._motion import AxisCommand, Refusal
 from motionlayer.nc._states import NEED_POWER, TRANSITIONS, AxisEvent, AxisState
@@ -63,11 +63,11 @@ class AxisBase:
     @property
     def homed(self) -> bool:
         """The position is that of a reference."""
-        return bool(int(self._table[Q.FLAGS, self._column]) & StateDWord.Homed)
+        return bool(int(self._table[Q.FLAGS, self._column]) & HOMED)
 
     @homed.setter
     def homed(self, homed: bool) -> None:
-        self._flag(StateDWord.Homed, on=homed)
+        self._flag(HOMED if homed else 0, off=HOMED)
 
     @property
     def set_position(self) -> float:
@@ -130,10 +130,10 @@ class AxisBase:
         self._state = state
         self._table[Q.STATE, self._column] = state
 
-    def _flag(self, bit: StateDWord, *, on: bool) -> None:
-        """Show a bit of `StateDWord` that changes with commands."""
-        flags = int(self._table[Q.FLAGS, self._column])
-        self._table[Q.FLAGS, self._column] = flags | bit if on else flags & ~bit
+    def _flag(self, on: int = 0, *, off: int = 0) -> None:
+        """Show bits of `StateDWord` that change with commands; plain integers, because every command does it."""
+        table, column = self._table, self._column
+        table[Q.FLAGS, column] = int(table[Q.FLAGS, column]) & ~off | on
 
     def _tell(self, level: Level, kind: Kind, text: str, code: int = 0) -> None:
         self._add(level, kind, text, code, 0, Subdevice.AxisCycle)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from motionlayer.command import Command, ErrorId, Ledger, MotionError
 from motionlayer.event import EventLog
-from motionlayer.nc._axis_ref import StateDWord
+from motionlayer.nc._axis_ref import BUFFERED
 from motionlayer.nc._config import AxisConfig, BufferMode
 from motionlayer.nc._follower import Buffering, Follower
 from motionlayer.nc._joints import joint_speeds
@@ -90,7 +90,7 @@ class AxisBuffer(AxisPlanning):
     def _set_follower(self, follower: Follower | None) -> None:
         """Let a command wait, or nothing any more."""
         self._follower = follower
-        self._flag(StateDWord.CmdBuffered, on=follower is not None)
+        self._flag(BUFFERED if follower is not None else 0, off=BUFFERED)
 
     def _fitted(self, running: Job, follower: Follower) -> tuple[Way | None, Way] | Refusal:
         """Plan both jobs, or tell why one cannot follow the other; what override 0 holds is judged at 1.
@@ -236,8 +236,10 @@ class AxisBuffer(AxisPlanning):
     def _drop_follower(self, by: Command[None] | None = None, error: MotionError | None = None) -> None:
         """Empty the buffer: what waited ends aborted by a command, or with the error of the axis."""
         follower = self._follower
+        if follower is None:
+            return
         self._set_follower(None)
-        if follower is None or follower.job.command is None:
+        if follower.job.command is None:
             return
         if error is not None:
             self._fail(follower.job.command, error)

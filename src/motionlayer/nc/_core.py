@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from motionlayer.command import ErrorId, Ledger, MotionError
 from motionlayer.event import EventLog, Kind, Level
-from motionlayer.nc._axis_ref import StateDWord
+from motionlayer.nc._axis_ref import HAS_JOB, NEW_TARGET
 from motionlayer.nc._config import AxisConfig
 from motionlayer.nc._cycle import AxisCycle
 from motionlayer.nc._limits import limit_text
@@ -208,7 +208,7 @@ class AxisCore(AxisProgress):
     def _drop_job(self) -> None:
         """Nothing is being executed; an override has nothing to scale."""
         self._job = None
-        self._flag(StateDWord.HasJob | StateDWord.NewTargetPos, on=False)
+        self._flag(off=HAS_JOB | NEW_TARGET)
         self._table[Q.JOB_KIND, self._column] = JOB_OTHER
 
     def _at_rest(self, job: Job) -> None:

@@ -6,11 +6,11 @@ every one of them, and a misspelt one is a TypeError that names those that there
 
 import difflib
 from collections.abc import Mapping
-from typing import Any, NamedTuple, TypedDict
+from typing import Any, Final, NamedTuple, TypedDict
 
 from motionlayer.nc._config import BufferMode
-from motionlayer.nc._follower import Buffering
-from motionlayer.nc._motion import Asked, member, number
+from motionlayer.nc._follower import AT_ONCE, Buffering
+from motionlayer.nc._motion import USUAL, Asked, member, number
 
 
 class RampKeywords(TypedDict, total=False):
@@ -102,6 +102,9 @@ class Keywords(NamedTuple):
     monitored: bool | None
 
 
+NONE_GIVEN: Final = Keywords(USUAL, AT_ONCE, None)
+
+
 def only_known(method: str, declared: type, given: Mapping[str, Any]) -> None:
     """Take no keyword that a TypedDict does not declare.
 
@@ -127,6 +130,8 @@ def checked(method: str, declared: type, given: Mapping[str, Any]) -> Keywords:
     Raises:
         TypeError: there is no such keyword, or one has a value of another type.
     """
+    if not given:
+        return NONE_GIVEN
     only_known(method, declared, given)
     asked = given.get("velocity"), given.get("acceleration"), given.get("deceleration"), given.get("jerk")
     mode = member("buffer_mode", given.get("buffer_mode", BufferMode.ABORTING), BufferMode)

@@ -34,6 +34,8 @@ class Moving(Protocol):
 class JobKind(enum.Enum):
     """What the motion is for; it decides what its end means."""
 
+    __hash__ = object.__hash__  # members are single: that of `Enum` is Python code, and every command asks for it
+
     POSITION = "position"
     VELOCITY = "velocity"
     CONTINUOUS = "continuous"
@@ -227,6 +229,8 @@ def member(name: str, value: object, of: type[E]) -> E:
 Asked = tuple[float | None, float | None, float | None, float | None]
 """Velocity, acceleration, deceleration and jerk of a command; None asks for the default."""
 
+USUAL: Final[Asked] = (None, None, None, None)
+
 _FIELDS: Final = (
     ("velocity", ErrorId.VELOCITY, "/s"),
     ("acceleration", ErrorId.ACCELERATION, "/s²"),
@@ -246,6 +250,8 @@ def dynamics(
     Raises:
         TypeError: a value is not a number.
     """
+    if asked == USUAL:
+        return default
     values = []
     for (name, error, per), value, usual, most in zip(_FIELDS, asked, default, maximum, strict=True):
         given = number(name, value)

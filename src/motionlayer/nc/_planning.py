@@ -5,7 +5,7 @@ from typing import Final
 
 from motionlayer.command import ErrorId, Ledger
 from motionlayer.event import EventLog
-from motionlayer.nc._axis_ref import StateDWord
+from motionlayer.nc._axis_ref import BEEN_STOPPED, HAS_JOB, NEW_TARGET
 from motionlayer.nc._base import AxisBase
 from motionlayer.nc._config import AxisConfig
 from motionlayer.nc._limits import bad_target, missing_feed, overrun
@@ -91,10 +91,11 @@ class AxisPlanning(AxisBase):
 
     def _show_job(self, job: Job) -> None:
         """Show in the flags of the interface that a job begins."""
-        scaled = job.kind in SCALED
-        self._flag(StateDWord.HasJob, on=True)
-        self._flag(StateDWord.HasBeenStopped, on=not scaled)
-        self._flag(StateDWord.NewTargetPos, on=scaled and self.set_velocity != 0.0)
+        if job.kind not in SCALED:
+            shown = HAS_JOB | BEEN_STOPPED
+        else:
+            shown = HAS_JOB | NEW_TARGET if self.set_velocity != 0.0 else HAS_JOB
+        self._flag(shown, off=BEEN_STOPPED | NEW_TARGET)
 
     def _scalable(self, job: Job) -> tuple[int, float]:
         """Return how the override scales a job: a kind of `store.JOB_*`, and its target."""

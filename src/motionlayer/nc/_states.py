@@ -42,6 +42,8 @@ class AxisState(enum.IntEnum):
 class AxisEvent(enum.Enum):
     """What can happen to an axis."""
 
+    __hash__ = object.__hash__  # members are single: that of `Enum` is Python code, and every command asks for it
+
     ENABLE = "enable"
     READY = "ready"
     DISABLE = "disable"

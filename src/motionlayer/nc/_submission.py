@@ -61,6 +61,9 @@ class AxisSubmission(AxisCore):
 
     def _told(self, text: str, job: Job, buffering: Buffering) -> str:
         """Return the text of a message with all that is not as usual: the dynamics in force, and when it begins."""
+        monitored = job.monitored is (job.kind is JobKind.POSITION)
+        if monitored and buffering == AT_ONCE and job.limits == self.config.default:
+            return text
         first = 0 if job.kind in SCALED else 2  # a brake takes the rest from what it brakes
         shown = list(zip(DYNAMICS, job.limits, self.config.default, strict=True))[first:]
         unusual = [f"{name}={value}" for name, value, usual in shown if value != usual and f"({name}=" not in text]
@@ -68,7 +71,7 @@ class AxisSubmission(AxisCore):
             unusual.append(f"buffer_mode={buffering.mode.name}")
         if buffering.blends and buffering.position is not None:
             unusual.append(f"blending_position={buffering.position}")
-        if job.monitored is not (job.kind is JobKind.POSITION):
+        if not monitored:
             unusual.append(f"position_monitoring={job.monitored}")
         separator = "" if text.endswith("()") or not unusual else ", "
         return f"{text[:-1]}{separator}{', '.join(unusual)})"
