@@ -2,12 +2,14 @@
 
 import pytest
 
-from motionlayer import AxisState
+from motionlayer import AxisState, Simulation
 from motionlayer.command import ErrorId
 from motionlayer.event import Kind
 from motionlayer.nc import Axis, AxisCommand
 from motionlayer.store import Q
+from motionlayer.verify import assert_valid
 from tests.machines import error_of, finish, one_axis, play, ready, state_of
+from tests.nc.servos import servo_machine
 
 S = AxisState
 
@@ -27,6 +29,20 @@ def test_enable_is_done_when_the_drive_is_ready() -> None:
 
     play(run, program)
     assert run.tick == 3  # called in 0, ready in 1, woken in 2
+
+
+def test_a_drive_that_is_not_ready_yet_takes_no_motion() -> None:
+    run = Simulation(servo_machine("X", drive={"ready_delay": 0.01}))
+    x = run.axes["X"]
+    assert error_of(x.move_absolute(5.0)) is ErrorId.NOT_ENABLED
+    x.enable()
+    for _ in range(9):
+        assert error_of(x.move_absolute(5.0)) is ErrorId.NOT_READY_AT_START
+        run.step()
+    run.step(5)
+    assert x.move_absolute(5.0).busy
+    run.step(500)
+    assert_valid(run.trace)
 
 
 def test_enable_twice() -> None:

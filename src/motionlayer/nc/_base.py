@@ -118,9 +118,11 @@ class AxisBase:
     def _next(self, event: AxisEvent, command: AxisCommand) -> AxisState | None:
         """Return the next state, or refuse the command."""
         state = TRANSITIONS[self._state][event]
-        switched_off = not self._table[Q.ENABLE, self._column]
-        if switched_off and self._state is AxisState.STANDSTILL and event in NEED_POWER:
+        asked = bool(self._table[Q.ENABLE, self._column])
+        if event in NEED_POWER and self._state is AxisState.STANDSTILL and not asked:
             state = ErrorId.NOT_ENABLED  # the drive follows the request in the next tick
+        elif event in NEED_POWER and self._state is AxisState.DISABLED and asked:
+            state = ErrorId.NOT_READY_AT_START  # it has not followed yet
         if isinstance(state, AxisState):
             return state
         self._refuse(command, Refusal(state, f"state {self._state!s}"))
