@@ -193,7 +193,8 @@ def test_lives_that_broke_a_rule_once(file: Path) -> None:
     themselves, a swing on the way back from outside, a reset before the error, a drive at rest that is not
     heard for a while. Since moves are buffered: what follows a halt under override 0, a joint that an axis is too near
     to be slowed down for, a follower that is replaced in the first cycle it moves in, a reset while an axis in error
-    brakes and waits for power, an enable that fails when the error is cleared.
+    brakes and waits for power, an enable that fails when the error is cleared, a position redefined in motion so that
+    the software limit comes too near.
     """
     data = json.loads(file.read_text())
     assert violations(*live(Life(data["machine"], from_data(data["parts"])))) == []

@@ -1,6 +1,7 @@
 """Homing and the definition of positions."""
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Unpack
 
 from motionlayer.command import ErrorId
@@ -98,7 +99,7 @@ class AxisReferencing(AxisSubmission):
         if self._state in (AxisState.ERRORSTOP, AxisState.HOMING) or (moves and (clear_lag or not relative)):
             detail = f"state {self._state!s}, allowed: at rest, in motion only relative and without clear_lag"
             return self._refuse(command, Refusal(ErrorId.GROUP_BUSY, detail))
-        refusal = self._misplaced(place) if moves else None
+        refusal = self._misplaced(shift) if moves else None
         if refusal is not None:
             return self._refuse(command, refusal)
         self._accept(command, f"define_position(position={place}, {relative=}, {clear_lag=}, {clear_offset=})")
@@ -123,7 +124,9 @@ class AxisReferencing(AxisSubmission):
             if not low <= place + way <= high:
                 text = f"position {place + way}, allowed: {low} to {high} {self.config.unit}"
                 return Refusal(ErrorId.TARGET_OUTSIDE_LIMITS, text)
-        return None
+        shifted = replace(job, target=job.target + way) if job in self._targeted() else job
+        planned = self._checked(shifted, self._here._replace(p=self.set_position + way))
+        return planned if isinstance(planned, Refusal) else None
 
     def _targeted(self) -> list[Job]:
         """Return the running and the buffered job, where they have a target position."""
