@@ -16,6 +16,9 @@ from motionlayer.command import Command, Ledger
 PATIENCE: Final = 10.0
 """Seconds of wall time after which a program that does not yield is taken to be stuck."""
 
+AGAIN: Final = 1.0
+"""Least seconds until a program that swallowed an interrupt gets another: who handles the first must have ended."""
+
 SHOWN: Final = 6
 """Frames of a stack that are shown, the innermost ones."""
 
@@ -62,7 +65,7 @@ class Watchdog:
             now = (self._ledger.tick, self._ledger.issuer)
             if now != seen or now[1] is None:
                 seen, since = now, time.monotonic()
-            elif time.monotonic() - since >= self._patience:
+            elif time.monotonic() - since >= (max(self._patience, AGAIN) if self.stuck else self._patience):
                 self._interrupt(now[1])
                 since = time.monotonic()
 
