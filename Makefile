@@ -17,9 +17,11 @@ test: $(READY)
 check: $(READY)
 	$(BIN)/python scripts/check.py
 
-# generated pages of the documentation, after a change of tables, options or keys
+# generated pages of the documentation, after a change of tables, options, keys or blocks
 reference: $(READY)
 	$(BIN)/python scripts/reference.py
+	$(BIN)/python scripts/blocks.py
+	$(BIN)/python scripts/layer_types.py
 
 # make campaign NAME=planning|life|blocks|mutation [COUNT=1e6] [SEED=1] [CASE=1234] [FRESH=1]
 campaign: $(READY)

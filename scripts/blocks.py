@@ -3,7 +3,6 @@
 `--check` writes nothing and fails if a page is not what the code says.
 """
 
-import argparse
 import enum
 import inspect
 import re
@@ -14,8 +13,7 @@ from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Any, Final
 
-sys.path.insert(0, str(Path(__file__).parent))
-
+from _generated import ROOT, current
 from _scenarios import LIMITS, ON, SCENARIOS, Scenario
 from _timing import Curve, Lane, diagram
 
@@ -23,25 +21,11 @@ from motionlayer import Machine, Simulation, fb
 from motionlayer.drive import Fault
 from motionlayer.fb._inputs import NAMES
 
-DOCS: Final = Path(__file__).resolve().parent.parent / "docs" / "blocks"
+DOCS: Final = ROOT / "docs" / "blocks"
 NOTE: Final = "<!-- Written by scripts/blocks.py from the code and a run; do not edit. -->"
 TYPES: Final = {bool: "BOOL", int: "UDINT", float: "LREAL"}
 BAD: Final = ("Error", "CommandAborted", "ErrorStop")
 LAST: Final = ("Done", "Valid", "Busy", "Active", "CommandAborted", "Error", "ErrorID")
-
-
-def main() -> int:
-    """Write or compare the pages; return 1 if one differs."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--check", action="store_true", help="compare only")
-    check = parser.parse_args().check
-    stale = {name: text for name, text in pages().items() if not _same(DOCS / name, text)}
-    for name, text in stale.items():
-        if not check:
-            DOCS.mkdir(exist_ok=True)
-            (DOCS / name).write_text(text, encoding="utf-8")
-        print(f"docs/blocks/{name}: " + ("is not current; run scripts/blocks.py" if check else "written"))
-    return 1 if check and stale else 0
 
 
 def blocks() -> dict[str, type[fb.Block]]:
@@ -62,10 +46,6 @@ def pages() -> dict[str, str]:
 
 def _is_block(found: object) -> bool:
     return isinstance(found, type) and issubclass(found, fb.Block)
-
-
-def _same(path: Path, text: str) -> bool:
-    return path.is_file() and path.read_text(encoding="utf-8") == text
 
 
 # -- a run ----------------------------------------------------------------------------------------------------------
@@ -260,4 +240,4 @@ def _attributes(of: type) -> Iterator[tuple[str, str]]:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(current(__doc__ or "", "scripts/blocks.py", DOCS, pages()))

@@ -1,4 +1,4 @@
-"""Run every check: format, lint, types, import contracts, tests. `--all` takes the slow tests too."""
+"""Run every check: format, lint, types, import contracts, tests. `--all` takes the slow tests and all examples."""
 
 import argparse
 import subprocess
@@ -12,20 +12,20 @@ BIN = Path(sys.executable).parent
 
 def steps(*, everything: bool) -> dict[str, list[str]]:
     """Return the commands by name, in order, the quick ones first."""
-    selection = [] if everything else ["-m", "not slow"]
+    selection = [] if everything else ["-m", "not slow", "--hypothesis-profile", "quick"]
     return {
         "format": [str(BIN / "ruff"), "format", "--check", "."],
         "lint": [str(BIN / "ruff"), "check", "."],
         "contracts": [str(BIN / "lint-imports")],
         "types": [str(BIN / "mypy")],
-        "tests": [sys.executable, "-m", "pytest", "-q", "-n", "auto", *selection],
+        "tests": [sys.executable, "-m", "pytest", "-q", "-n", "auto", "--dist", "worksteal", *selection],
     }
 
 
 def main() -> int:
     """Run all steps even if one fails; return 1 if any did."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--all", action="store_true", help="the slow tests too")
+    parser.add_argument("--all", action="store_true", help="the slow tests too, and all examples of the random ones")
     failed = []
     for name, command in steps(everything=parser.parse_args().all).items():
         print(f"== {name}", flush=True)

@@ -3,22 +3,21 @@
 `--check` writes nothing and fails if a page in docs/ is not what the code says.
 """
 
-import argparse
 import json
 import re
 import sys
 from collections.abc import Iterable, Iterator
-from pathlib import Path
 from typing import Any, Final
 
 import click
+from _generated import ROOT, current
 
 from motionlayer.cli._main import group
 from motionlayer.command import ERRORS, RANGES, ErrorId, ErrorText
 from motionlayer.machine import MachineFile
 from motionlayer.nc import TRANSITIONS, AxisEvent, AxisState
 
-DOCS: Final = Path(__file__).resolve().parent.parent / "docs"
+DOCS: Final = ROOT / "docs"
 NOTE: Final = "<!-- Written by scripts/reference.py from the code; do not edit. -->"
 WIDTH: Final = 100
 KINDS: Final = {"string": "text", "integer": "whole number", "boolean": "true or false"}
@@ -55,27 +54,10 @@ EVENTS: Final = {
 """Who brings an event, for a reader."""
 
 
-def main() -> int:
-    """Write or compare the pages; return 1 if one differs."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--check", action="store_true", help="compare only")
-    check = parser.parse_args().check
-    stale = {name: text for name, text in pages().items() if not _same(DOCS / name, text)}
-    for name, text in stale.items():
-        if not check:
-            (DOCS / name).write_text(text, encoding="utf-8")
-        print(f"docs/{name}: " + ("is not what the code says; run scripts/reference.py" if check else "written"))
-    return 1 if check and stale else 0
-
-
 def pages() -> dict[str, str]:
     """Return every generated page by its name below docs/."""
     made = {"states.md": states(), "errors.md": errors(), "machine-keys.md": keys(), "cli.md": command_line()}
     return {name: "\n".join([NOTE, "", *lines]).rstrip() + "\n" for name, lines in made.items()}
-
-
-def _same(path: Path, text: str) -> bool:
-    return path.is_file() and path.read_text(encoding="utf-8") == text
 
 
 def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> Iterator[str]:
@@ -234,4 +216,4 @@ def _help(context: click.Context) -> Iterator[str]:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(current(__doc__ or "", "scripts/reference.py", DOCS, pages()))

@@ -10,6 +10,7 @@ PIECES = 5
 
 
 def setup(run: Simulation, memory: SimpleNamespace) -> None:
+    """Make the blocks; `memory` keeps them from call to call."""
     memory.feed, memory.blade = feed, blade = run.axis_refs["Feed"], run.axis_refs["Blade"]
     memory.power = [MC_Power(feed), MC_Power(blade)]
     memory.reset = [MC_Reset(feed), MC_Reset(blade)]
@@ -42,6 +43,7 @@ def chain(m: SimpleNamespace) -> str:  # noqa: PLR0911 - one return per transiti
 
 
 def main(run: Simulation, memory: SimpleNamespace) -> None:
+    """Take a step of the chain where its condition holds, then call every block once, in every cycle."""
     m = memory
     if run.tick == 0:
         setup(run, m)

@@ -13,7 +13,7 @@ __version__ = "0.1.0.dev0"
 if TYPE_CHECKING:
     from motionlayer.command import Command, CommandAborted, CommandError, MotionError, all_of, any_of
     from motionlayer.drive import Fault
-    from motionlayer.machine import Machine, MachineError, MachineRun, RealTime, Replay, Simulation, replay
+    from motionlayer.machine import Loopback, Machine, MachineError, MachineRun, RealTime, Replay, Simulation, replay
     from motionlayer.nc import AxisState, Direction, stopping
     from motionlayer.record import Trace
 
@@ -25,6 +25,7 @@ _HOME = {
     "all_of": "command",
     "any_of": "command",
     "Fault": "drive",
+    "Loopback": "machine",
     "Machine": "machine",
     "MachineError": "machine",
     "MachineRun": "machine",
@@ -45,6 +46,7 @@ __all__ = [
     "CommandError",
     "Direction",
     "Fault",
+    "Loopback",
     "Machine",
     "MachineError",
     "MachineRun",

@@ -14,6 +14,7 @@ from motionlayer.bench.campaign import CAMPAIGNS, Failure
 
 TINY = Effort(samples=3, runs=1, peers=Environment(Path(sys.executable)))
 ROWS = {row.name: row for row in GROUPS["numerics"]}
+HEAVY = {"drive.axes_1000"}
 
 
 def test_the_numerics_group_has_these_rows() -> None:
@@ -28,7 +29,14 @@ def test_the_numerics_group_has_these_rows() -> None:
     ]
 
 
-@pytest.mark.parametrize("row", [row for name, row in ROWS.items() if name != "plan.asymmetric"], ids=lambda r: r.name)
+@pytest.mark.parametrize(
+    "row",
+    [
+        pytest.param(row, marks=[pytest.mark.slow] if name in HEAVY else [], id=name)
+        for name, row in ROWS.items()
+        if name != "plan.asymmetric"
+    ],
+)
 def test_every_row_gives_a_number(row: Row) -> None:
     figure = row.measure(TINY)
     assert math.isfinite(figure.value)
@@ -61,6 +69,7 @@ def test_without_scipy_there_is_no_value(tmp_path: Path) -> None:
         numerics.asymmetric(TINY._replace(peers=Environment(tmp_path / "python")))
 
 
+@pytest.mark.slow
 def test_the_linear_program_agrees_with_the_closed_form_and_the_plans() -> None:
     cases = asymmetric_cases(6)
     optima = TINY.peers.run(numerics.OPTIMUM, {"cases": [case._asdict() for case in cases], "steps": 90})

@@ -17,6 +17,7 @@ from motionlayer.record import Trace
 TINY = Effort(samples=3, runs=1)
 PROCESSES = ("demo.", "start.", "help.")
 INSIDE = [row for row in GROUPS["core"] if not row.name.startswith(PROCESSES)]
+HEAVY = {"cycle.axes_6000"}
 
 
 def test_the_core_group_has_these_rows() -> None:
@@ -35,7 +36,10 @@ def test_the_core_group_has_these_rows() -> None:
     ]
 
 
-@pytest.mark.parametrize("row", INSIDE, ids=lambda row: row.name)
+@pytest.mark.parametrize(
+    "row",
+    [pytest.param(row, marks=[pytest.mark.slow] if row.name in HEAVY else [], id=row.name) for row in INSIDE],
+)
 def test_every_row_inside_the_process_gives_a_number(row: Row) -> None:
     assert math.isfinite(row.measure(TINY).value)
 

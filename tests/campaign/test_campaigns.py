@@ -22,15 +22,16 @@ from motionlayer.event import Kind
 from motionlayer.nc import Axis, BufferMode
 from motionlayer.profile import Profile
 from motionlayer.record import Trace
+from tests.effort import examples
 
 Operator = Callable[[np.random.Generator, Trace], Damage | None]
 SEED = 1
 SLOW = MODE == "plain"
 SHORT = {
-    "planning": BLOCK // 20 if SLOW else 4 * BLOCK,
-    "life": 2 if SLOW else 40,
+    "planning": BLOCK // 20 if SLOW else examples(4 * BLOCK),
+    "life": 2 if SLOW else examples(40),
     "blocks": 1 if SLOW else 3,
-    "mutation": 5 if SLOW else 4 * BATCH,
+    "mutation": 5 if SLOW else examples(4 * BATCH),
 }
 
 
@@ -79,7 +80,7 @@ def test_a_life_that_breaks_a_rule_is_found(monkeypatch: pytest.MonkeyPatch) -> 
     plain = Axis.set_override
 
     def jumps(axis: Axis, factor: float) -> None:
-        axis._table[0, axis._column] += 1.0
+        axis._store.table[0, axis._column] += 1.0
         plain(axis, factor)
 
     monkeypatch.setattr(Axis, "set_override", jumps)
@@ -194,7 +195,10 @@ def test_lives_that_broke_a_rule_once(file: Path) -> None:
     heard for a while. Since moves are buffered: what follows a halt under override 0, a joint that an axis is too near
     to be slowed down for, a follower that is replaced in the first cycle it moves in, a reset while an axis in error
     brakes and waits for power, an enable that fails when the error is cleared, a position redefined in motion so that
-    the software limit comes too near.
+    the software limit comes too near. Since goals, brakes and joints are judged: a jog to a multiple in the tick of a
+    shift, a command that was replaced in the tick it became active in, an override that rises before an end velocity
+    that could not be braked, a joint on the edge of what can be passed, a turn that comes back just as far, a way that
+    begins with a sliver, a drive that is not heard from the beginning.
     """
     data = json.loads(file.read_text())
     assert violations(*live(Life(data["machine"], from_data(data["parts"])))) == []

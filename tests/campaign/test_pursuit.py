@@ -7,11 +7,13 @@ import sys
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 
 from motionlayer.bench.campaign import Campaign, Failure, State, StateError, _pursuit, pursue, resume
 from motionlayer.bench.campaign._pursuit import batches
+from tests.scripts import ROOT, script
 
-SCRIPT = Path(__file__).resolve().parent.parent.parent / "scripts" / "campaign.py"
+SCRIPT = ROOT / "scripts" / "campaign.py"
 
 
 def odd(_seed: int, cases: range) -> list[Failure]:
@@ -109,10 +111,11 @@ def command(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
 
 
 def test_the_command_counts_and_goes_on(tmp_path: Path) -> None:
-    first = command(tmp_path, "--name", "planning", "--count", "2e2", "--seed", "3")
-    assert first.returncode == 0, first.stderr
+    options = ["--folder", str(tmp_path), "--name", "planning", "--seed", "3"]
+    first = CliRunner().invoke(script("campaign").main, [*options, "--count", "2e2"])
+    assert first.exit_code == 0, first.stderr
     assert first.stdout.splitlines()[-1].startswith("planning: 200 states, seed 3: 0 failures; ")
-    again = command(tmp_path, "--name", "planning", "--count", "300", "--seed", "3")
+    again = CliRunner().invoke(script("campaign").main, [*options, "--count", "300"])
     assert "goes on at 200" in again.stdout
     assert "planning: 300 states, seed 3: 0 failures" in again.stdout
 
@@ -126,7 +129,7 @@ def test_the_command_repeats_one_case(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("count", ["0", "-1", "1.5", "nan", "inf", "many"])
-def test_the_command_wants_a_whole_count(tmp_path: Path, count: str) -> None:
-    done = command(tmp_path, "--name", "planning", f"--count={count}")
-    assert done.returncode == 2
+def test_the_command_wants_a_whole_count(count: str) -> None:
+    done = CliRunner().invoke(script("campaign").main, ["--name", "planning", f"--count={count}"])
+    assert done.exit_code == 2
     assert "is no whole number above zero" in done.stderr

@@ -111,6 +111,7 @@ def test_programs_of_the_machine_file_with_tasks() -> None:
     same()
 
 
+@pytest.mark.slow
 def test_late_ticks_in_real_time_are_late_again() -> None:
     trace = recorded("--program", "programs.py:slow", "--realtime")
     assert [event for event in trace.events if "all axes brake" in event.text]
@@ -129,9 +130,9 @@ def test_what_threads_have_posted_comes_from_the_trace() -> None:
 @pytest.mark.parametrize(
     ("number", "code", "cause"),
     [
-        (signal.SIGINT, ExitCode.INTERRUPTED, "interrupted"),
+        pytest.param(signal.SIGINT, ExitCode.INTERRUPTED, "interrupted", marks=pytest.mark.slow),
         (signal.SIGTERM, ExitCode.TERMINATED, "terminated"),
-        (signal.SIGHUP, ExitCode.HUNG_UP, "the terminal was closed"),
+        pytest.param(signal.SIGHUP, ExitCode.HUNG_UP, "the terminal was closed", marks=pytest.mark.slow),
     ],
 )
 def test_a_signal_at_any_time(number: signal.Signals, code: ExitCode, cause: str) -> None:
@@ -165,6 +166,7 @@ def test_one_signal_ends_a_program_that_never_yields() -> None:
     assert trace.end == (20, "terminated", True)
 
 
+@pytest.mark.slow
 def test_a_run_that_was_killed_is_compared_up_to_its_last_block() -> None:
     assert signalled(signal.SIGKILL, "--program", "programs.py:shuttle", after=0.1) == -signal.SIGKILL
     trace = Trace.load("run.trace")

@@ -102,6 +102,7 @@ def test_the_hash_depends_on_nothing_but_the_run(machine: Path) -> None:
     assert other.stdout.splitlines()[-1] != digest
 
 
+@pytest.mark.slow
 def test_the_first_run_says_that_it_compiles_and_the_next_does_not(machine: Path, tmp_path: Path) -> None:
     cache = str(tmp_path / "cache")
     first, second = (command("run", machine, "--time", 0.01, MOTIONLAYER_CACHE=cache) for _ in range(2))

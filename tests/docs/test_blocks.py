@@ -1,27 +1,18 @@
 """Pages of the function blocks: what the code and a run say, one for each, and all of them linked."""
 
-import importlib.util
 import re
-import sys
-from pathlib import Path
 from types import ModuleType
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+from tests.scripts import ROOT, script
+
 FOLDER = ROOT / "docs" / "blocks"
 
 
 @pytest.fixture(scope="module")
 def generator() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("blocks", ROOT / "scripts" / "blocks.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    path = sys.path.copy()
-    spec.loader.exec_module(module)
-    sys.path[:] = path
-    return module
+    return script("blocks")
 
 
 def test_pages_and_pictures_are_current(generator: ModuleType) -> None:

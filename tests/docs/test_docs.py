@@ -17,6 +17,7 @@ NAMES = [page.relative_to(ROOT).as_posix() for page in PAGES]
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```", re.DOTALL | re.MULTILINE)
 OUTPUT = re.compile(r"# → (.*)$", re.MULTILINE)
 SLOW = ("bench",)
+LONG = {"docs/replay.md"}  # its commands run the whole demo twice
 
 every_page = pytest.mark.parametrize("page", PAGES, ids=NAMES)
 
@@ -50,7 +51,13 @@ def test_python_blocks_of_a_page_run_and_print_what_it_says(
         assert [line for line in OUTPUT.findall(block) if line not in printed] == [], printed
 
 
-@every_page
+@pytest.mark.parametrize(
+    "page",
+    [
+        pytest.param(page, marks=[pytest.mark.slow] if name in LONG else [], id=name)
+        for page, name in zip(PAGES, NAMES, strict=True)
+    ],
+)
 def test_commands_of_a_page_work_as_printed(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "examples").symlink_to(ROOT / "examples")
     monkeypatch.chdir(tmp_path)  # nothing else is there: no folder that somebody else has made

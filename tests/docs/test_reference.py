@@ -1,8 +1,6 @@
 """Reference pages: the generated ones are what the code says, names in the written one exist."""
 
 import builtins
-import importlib.util
-import inspect
 import pkgutil
 import re
 from pathlib import Path
@@ -14,22 +12,18 @@ import motionlayer.machine
 import motionlayer.record
 import motionlayer.runtime
 from motionlayer import Machine, Simulation
+from motionlayer.machine import SimulationKeywords
+from tests.scripts import ROOT, script
 
-ROOT = Path(__file__).resolve().parent.parent.parent
 
-
+@pytest.fixture(scope="module")
 def generator() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("reference", ROOT / "scripts" / "reference.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return script("reference")
 
 
 @pytest.mark.parametrize("name", ["states.md", "errors.md", "machine-keys.md", "cli.md"])
-def test_a_generated_page_is_what_the_code_says(name: str) -> None:
-    assert (ROOT / "docs" / name).read_text() == generator().pages()[name], "run scripts/reference.py"
+def test_a_generated_page_is_what_the_code_says(generator: ModuleType, name: str) -> None:
+    assert (ROOT / "docs" / name).read_text() == generator.pages()[name], "run scripts/reference.py"
 
 
 def sections() -> dict[str, list[str]]:
@@ -60,7 +54,7 @@ def known() -> dict[str, set[str]]:
     return {
         "Axis": set(dir(axis)),
         "Command": {*dir(command), *dir(program), *dir(cyclic)},
-        "Simulation": {*dir(run), *inspect.signature(Simulation).parameters},
+        "Simulation": {*dir(run), *SimulationKeywords.__annotations__},
         "Trace": {*dir(trace), *(name.partition(".")[2] for name in trace)},
         "Exceptions": {name for package in packages for name in dir(package)},
     }

@@ -42,6 +42,7 @@ def short_run(tmp_path: Path, *options: str, **environment: str) -> str:
     return done.stdout.splitlines()[-1]
 
 
+@pytest.mark.slow
 def test_the_hash_of_the_demo_is_the_same_however_it_is_run(tmp_path: Path) -> None:
     lines = {
         short_run(tmp_path, "--hash", PYTHONHASHSEED="1"),

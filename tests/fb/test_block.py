@@ -6,11 +6,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from motionlayer import fb
 from motionlayer.bench.campaign._observer import Observer
 from motionlayer.command import Command, ErrorId, MotionError
 from motionlayer.fb import MC_Jog, MC_MoveAbsolute
-from motionlayer.fb._block import NEXT, ExecuteBlock, Phase
+from motionlayer.fb._block import NEXT, Built, ExecuteBlock, Phase
 from motionlayer.fb._inputs import lreal
+
+from .rig import Rig
 
 
 class Issuing(ExecuteBlock):
@@ -119,7 +122,7 @@ def test_inputs_keep_their_values() -> None:
 
 def test_an_unknown_input_is_named_and_nothing_taken() -> None:
     block = Issuing()
-    with pytest.raises(TypeError, match="Issuing has no input Positon; it has Execute, Position"):
+    with pytest.raises(TypeError, match=r"Issuing has no input Positon; did you mean Position\?"):
         block(Execute=True, Positon=3.0)
     assert not block.Execute
     assert not block.issued
@@ -171,3 +174,30 @@ def test_the_rules_hold_under_random_calls(sequence: list[str]) -> None:
         block()
         observer.look(block)
     assert len(block.issued) == len(block.latched)
+
+
+@pytest.mark.parametrize(
+    ("name", "hint"),
+    [("Positon", r"did you mean Position\?"), ("Zzz", "it has Execute, Position"), ("_phse", "it has")],
+)
+def test_an_attribute_that_there_is_not_cannot_be_set(name: str, hint: str) -> None:
+    block = Issuing()
+    with pytest.raises(AttributeError, match=f"Issuing has no input {name}; {hint}"):
+        setattr(block, name, 1.0)
+    assert not hasattr(block, name)
+    block.Position, block.refuse = 2.0, None
+    assert block.Position == 2.0
+
+
+@pytest.mark.parametrize("name", [name for name in fb.__all__ if name != "Block" and isinstance(vars(fb)[name], Built)])
+def test_no_block_takes_a_misspelt_input(name: str) -> None:
+    """Nor in the calls of a run: whatever a block keeps, it has from the beginning."""
+    rig = Rig()
+    kind = getattr(fb, name)
+    block = kind(*{"MC_OverrideFilter": [rig.run], "MC_CalcDynamicsByRampTime": []}.get(name, [rig.ref]))
+    before = set(vars(block))
+    rig.cycle(3, block)
+    rig.cycle(3, lambda: block(**{one: True for one in ("Execute", "Enable") if one in block.INPUTS}))
+    assert set(vars(block)) == before
+    with pytest.raises(AttributeError, match=f"{name} has no input Exekute"):
+        block.Exekute = True

@@ -48,8 +48,13 @@ def write(rig: Rig, number: int, value: Any) -> int:
     return int(block.ErrorID)
 
 
-def test_the_table_has_an_entry_per_number() -> None:
-    assert list(PARAMETERS) == list(MC_AxisParameter)
+def test_the_table_is_in_the_order_of_the_numbers() -> None:
+    assert list(PARAMETERS) == sorted(PARAMETERS)
+
+
+def test_numbers_are_those_of_the_compiled_interface() -> None:
+    """Motion-layer 2.9; an older list of the same names lacks 1036 and counts on from there."""
+    assert (P.AxisEnBacklashCompensation, P.AxisEncoderModuloValue, P.AxisMaximumDeceleration) == (1036, 1045, 1059)
 
 
 @pytest.mark.parametrize("number", NUMBERS, ids=str)

@@ -98,6 +98,33 @@ def test_options_say_how_to_home_and_hold_for_this_homing_alone() -> None:
     rig.check()
 
 
+SIGNALS: Final = CAM | {"pulse": 1.25, "pulse_period": 10.0, "turn": 8.0, "latch": -45.0, "latch_width": 0.5}
+REFERENCES: Final = {
+    E_EncoderReferenceMode.DEFAULT: -50.0,
+    E_EncoderReferenceMode.PLCCAM: -50.0,
+    E_EncoderReferenceMode.HARDWARESYNC: -48.75,
+    E_EncoderReferenceMode.HARDWARELATCHPOS: -45.0,
+    E_EncoderReferenceMode.HARDWARELATCHNEG: -44.5,
+    E_EncoderReferenceMode.SOFTWARESYNC: -48.0,
+    E_EncoderReferenceMode.SOFTDRIVELATCHPOS: -45.0,
+    E_EncoderReferenceMode.SOFTDRIVELATCHNEG: -44.5,
+}
+"""Drive positions of the references behind the edge at -50; a program is up to 0.04 late to see one."""
+
+
+@pytest.mark.parametrize("mode", list(E_EncoderReferenceMode))
+def test_every_reference_mode_finds_its_reference(mode: E_EncoderReferenceMode) -> None:
+    rig = Rig(home=SIGNALS)
+    home = MC_Home(rig.ref)
+    rig.watch(home)
+    home.Options.ReferenceMode, home.Execute, phases = mode, True, [0]
+    rig.until(lambda: home.Done, lambda: phases.append(rig.ref.NcToPlc.HomingState))
+    late = 7.0 - float(rig.ref.axis._store.table[Q.SHIFT, 0]) - REFERENCES[mode]
+    assert -1e-12 < late <= (0.04 if "SOFTDRIVE" in mode.name else 1e-12)
+    assert (5 in phases) == (mode > E_EncoderReferenceMode.PLCCAM)
+    rig.check()
+
+
 def test_a_search_the_other_way_round_turns_the_way_off_the_cam_with_it() -> None:
     rig = Rig(home=CAM | {"mode": "cam", "direction": "positive", "switch": 30.0})
     home = MC_Home(rig.ref)
@@ -136,7 +163,7 @@ def test_a_cam_that_the_program_reads_is_the_reference_where_it_falls() -> None:
     assert (axis.homed, len(falling)) == (True, 1)
     bits = ControlDWord.Enable | ControlDWord.FeedEnablePlus | ControlDWord.FeedEnableMinus
     assert rig.ref.PlcToNc.ControlDWord == bits
-    shift = float(axis._table[Q.SHIFT, 0])  # the drive counts on as before
+    shift = float(axis._store.table[Q.SHIFT, 0])  # the drive counts on as before
     assert falling[0] + shift == pytest.approx(7.0, abs=1e-12)
     assert -30.0 < falling[0] <= -30.0 + 5.0 * 0.001
     rig.check()
@@ -201,6 +228,35 @@ def test_a_size_that_cannot_be_planned_is_refused_and_says_so(one: str) -> None:
     }
     assert move.ErrorID == errors[one]
     assert any("allowed: 1e-60 <=" in event.text for event in rig.run.trace.events)
+
+
+@pytest.mark.parametrize(("index", "error"), [(0, 0), (1, ErrorId.ENCODER_ID), (-1, ErrorId.ENCODER_ID)])
+def test_an_axis_has_one_encoder_to_choose(index: int, error: int) -> None:
+    rig = Rig()
+    block = MC_SetPosition(rig.ref)
+    block.Options = ST_SetPositionOptions(SelectEncoderIndex=True, EncoderIndex=index)
+    rig.cycle(1, lambda: block(Execute=True, Position=5.0))
+    assert block.ErrorID == error
+    assert rig.ref.axis.set_position == (0.0 if error else 5.0)
+    rig.check()
+
+
+def test_an_encoder_that_is_not_selected_does_not_matter() -> None:
+    rig = Rig()
+    block = MC_SetPosition(rig.ref)
+    block.Options.EncoderIndex = 9
+    rig.cycle(2, lambda: block(Execute=True, Position=5.0))
+    assert block.Done
+    rig.check()
+
+
+def test_a_position_that_is_ignored_may_be_any() -> None:
+    rig = Rig()
+    block = MC_SetPosition(rig.ref)
+    block.Options.ClearPositionOffset = True
+    rig.cycle(2, lambda: block(Execute=True, Position=math.nan))
+    assert (block.Done, rig.ref.axis.set_position) == (True, 0.0)
+    rig.check()
 
 
 SHIFTS: Final[tuple[tuple[dict[str, Any], float], ...]] = (

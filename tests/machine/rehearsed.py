@@ -7,7 +7,7 @@ from typing import Any
 
 from motionlayer import Direction, Fault, Machine, Simulation, _kernel
 from motionlayer.machine._rehearsal import rehearse
-from motionlayer.nc import Axis, BufferMode
+from motionlayer.nc import Axis, BufferMode, Calibration, HomingMode
 
 Use = Callable[[Axis], object]
 
@@ -20,6 +20,8 @@ LIMITS: dict[str, Any] = {
 }
 SERVO = {"kind": "servo", "position_gain": 80.0, "time_constant": 0.002, "noise": 0.001}
 SWITCH = {"mode": "switch", "switch": -50.0, "velocity": 40.0}
+SIGNALS = {"pulse_period": 10.0, "turn": 8.0, "latch": -45.0, "latch_width": 0.5, "sync_velocity": 20.0}
+INDEX = SWITCH | SIGNALS | {"mode": "index"}
 MONITOR = {"lag": 5.0, "target_window": 0.1, "target_time": 0.01, "range_window": 1.0}
 
 MACHINE = Machine.from_dict(
@@ -31,8 +33,10 @@ MACHINE = Machine.from_dict(
             "B": LIMITS | {"drive": SERVO, "monitor": MONITOR},
             "C": LIMITS | {"drive": SERVO, "home": SWITCH},
             "D": LIMITS | {"home": SWITCH},
+            "E": LIMITS | {"home": INDEX},
+            "F": LIMITS | {"drive": SERVO, "home": INDEX},
         },
-        "group": {"all": {"axes": ["A", "B", "C", "D"], "reaction": "stop"}},
+        "group": {"all": {"axes": list("ABCDEF"), "reaction": "stop"}},
     }
 )
 
@@ -55,6 +59,7 @@ def use(run: Simulation) -> None:
         lambda axis: axis.move_absolute(100.0),
         lambda axis: axis.move_relative(-30.0, velocity=50.0, jerk=9e4),
         lambda axis: axis.move_velocity(100.0, Direction.NEGATIVE),
+        lambda axis: axis.define_position(-1.0, relative=True),
         lambda axis: axis.set_override(0.3),
         lambda axis: axis.passes(axis.set_position - 1.0),
         lambda axis: axis.set_override(1.0),
@@ -78,6 +83,7 @@ def use(run: Simulation) -> None:
             step(axis)
         run.step(30)
     run.step(2000)
+    home(run, axes)
     run.inject("B", Fault("drive_error"))
     run.step(100)
     for axis in axes:
@@ -87,6 +93,21 @@ def use(run: Simulation) -> None:
     for axis in axes:
         axis.disable()
     run.step(100)
+
+
+def home(run: Simulation, axes: list[Axis]) -> None:
+    """Home in every way that the drives have signals for; define positions at rest."""
+    for axis in axes:
+        axis.halt()
+    run.step(500)
+    for method in HomingMode:
+        for axis in axes:
+            axis.home(method=method, search_velocity=100.0)
+        run.step(3000)
+    for axis in axes:
+        axis.define_position(10.0, clear_lag=True)
+        axis.define_position(clear_offset=True)
+        axis.home(mode=Calibration.DIRECT, clear_lag=True)
 
 
 rehearse(MACHINE)

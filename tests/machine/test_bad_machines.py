@@ -69,6 +69,20 @@ BAD = [
         "= inf: must be a finite number",
     ),
     (HEAD + AXIS + '[axis.X.home]\nmode = "switch"\n', 7, "axis.X.home.switch", "missing; must be a finite"),
+    (
+        HEAD + AXIS + '[axis.X.home]\nmode = "software_sync"\nswitch = 1\n',
+        7,
+        "axis.X.home.turn",
+        'mode = "software_sync" needs it',
+    ),
+    (
+        HEAD + AXIS + '[axis.X.home]\nmode = "soft_latch_negative"\nswitch = 1\n',
+        7,
+        "axis.X.home.latch",
+        'mode = "soft_latch_negative" needs it',
+    ),
+    (HEAD + AXIS + "[axis.X.home]\nturn = 0\n", 8, "axis.X.home.turn", "= 0: must be greater than 0 (mm)"),
+    (HEAD + AXIS + "[axis.X.home]\nlatch_width = 1\n", 8, "axis.X.home.latch_width", "left out without latch"),
     (HEAD + AXIS + '[axis.X.home]\nmode = "swich"\n', 8, "axis.X.home.mode", 'one of "direct", "switch"'),
     (HEAD + AXIS + '[axis.X.drive]\nkind = "step"\n', 8, "axis.X.drive.kind", 'one of "ideal", "servo"'),
     # drives

@@ -15,7 +15,7 @@ Write = Callable[[str], Path]
 _NOT_FINITE = ["nan", "inf", "-inf", "+nan", "1" + "0" * 400]
 _NOT_A_NUMBER = ['"1"', "true", "[1.0]", "{}", "1979-05-27", '"""\n1"""']
 _NOT_A_TEXT = ["0", "-1.5", "nan", "false", '["a"]', "{}", '""']
-_TEXTS = {"name", "unit", "mode", "direction", "kind", "file", "function", "task"}
+_TEXTS = {"name", "unit", "mode", "direction", "kind", "file", "function", "task", "paths", "group"}
 _FROM_ZERO = {"seed", "phase"}
 _ANY_SIGN = {"software_limit_min", "software_limit_max", "start_position", "position", "switch"}
 

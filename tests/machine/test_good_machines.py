@@ -77,16 +77,21 @@ def test_schema_describes_every_field_and_asks_only_for_what_has_no_default() ->
     ]
     assert undescribed == []
     assert {name: table.get("required", []) for name, table in tables.items()} == {
-        "Description": ["format", "name", "axis"],
+        "Description": ["format", "name"],
         "AxisDescription": ["max_velocity", "max_acceleration", "max_jerk"],
         "HomeDescription": [],
+        "ControlDescription": ["axes"],
+        "DivisorDescription": [],
         "DriveDescription": [],
         "FaultDescription": ["axis", "kind"],
         "GroupDescription": ["axes"],
+        "LayerDescription": [],
         "LogDescription": ["folder"],
         "ManualDescription": [],
+        "MapDescription": ["group"],
         "ModuloDescription": [],
         "MonitorDescription": [],
+        "PhaseDescription": [],
         "ProgramDescription": ["file"],
         "RealTimeDescription": [],
         "TaskDescription": [],

@@ -151,6 +151,7 @@ def test_keys_out_of_range(tmp_path: Path, key: str, value: object, allowed: str
         logged(tmp_path, **{key: value})
 
 
+@pytest.mark.slow
 def test_a_full_disk_enters_the_run_as_an_input_that_a_replay_is_given(tmp_path: Path) -> None:
     def tick(run: Simulation) -> None:
         for number in range(500):

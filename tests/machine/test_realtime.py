@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.cli.support import python
+from tests.effort import examples
 from tests.machines import LINEAR
 from tests.runtime.clock import MS, FakeClock
 
@@ -85,7 +86,7 @@ def replayed(inputs: list[Input]) -> Simulation:
     return run
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=examples(10), deadline=None)
 @given(
     speed=st.sampled_from([0.01, 0.7, 1.0, 10.0, 1000.0]),
     delays=st.lists(st.integers(0, MS - 2000), min_size=1, max_size=50),

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.effort import examples
 from tests.machines import LINEAR
 from tests.runtime.clock import MS, FakeClock
 
@@ -41,7 +42,7 @@ def same(trace: Trace, *programs: Any) -> None:
     assert (done.same, done.difference, done.notes) == (True, "", ())
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(
     works=st.dictionaries(st.integers(5, 250), st.integers(2 * MS, 30 * MS), max_size=6), seed=st.integers(0, 2**63 - 1)
 )
@@ -61,7 +62,7 @@ def test_late_ticks_have_the_same_consequences(works: dict[int, int], seed: int)
     same(trace, shuttle, load)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(
     doings=st.lists(
         st.tuples(st.integers(0, 60), st.sampled_from(["fault", "later fault", "stop", "post"])), max_size=8

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from motionlayer.nc._axis_ref import NCTOPLC_AXIS_REF, PLCTONC_AXIS_REF, OpModeDWord, StateDWord
 from motionlayer.nc._axis_refs import AxisRefs
 from motionlayer.store import Q, Status, Store
+from tests.effort import examples
 
 DT = 0.001
 NC_TO_PLC = {
@@ -52,7 +53,7 @@ def test_no_two_fields_share_a_byte() -> None:
 finite = st.floats(-1e6, 1e6)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 @given(st.lists(finite, min_size=6, max_size=6), st.floats(1e-3, 1e4), st.integers(0, 2**40))
 def test_positions_and_turns_fit_together(values: list[float], modulo: float, tick: int) -> None:
     store, image = refs(1, modulo)

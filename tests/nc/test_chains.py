@@ -10,6 +10,7 @@ from motionlayer import Simulation
 from motionlayer.nc import Axis, AxisCommand, BufferMode
 from motionlayer.profile import Limits, passable_velocity, plan_passing, plan_position, stop_displacement
 from motionlayer.verify import assert_valid
+from tests.effort import examples
 from tests.machines import LINEAR, finish, machine
 
 MAXIMUM = Limits(500.0, 5000.0, 6000.0, 1e5)
@@ -77,7 +78,7 @@ def usable(legs: list[Leg]) -> list[Leg]:
     return [leg._replace(mode=BufferMode.BUFFERED if leg.mode is BufferMode.ABORTING else leg.mode) for leg in kept]
 
 
-@settings(max_examples=40, deadline=None, phases=PHASES)
+@settings(max_examples=examples(40), deadline=None, phases=PHASES)
 @given(legs=st.lists(LEG, min_size=2, max_size=12).map(usable).filter(lambda legs: len(legs) > 1))
 def test_random_chains_lose_no_position(legs: list[Leg]) -> None:
     run, x = chain()
@@ -115,7 +116,7 @@ def rule(legs: list[Leg]) -> float:
     return total
 
 
-@settings(max_examples=20, deadline=None, phases=PHASES)
+@settings(max_examples=examples(20), deadline=None, phases=PHASES)
 @given(
     legs=st.lists(
         st.builds(
@@ -141,7 +142,7 @@ def test_a_chain_takes_exactly_as_long_as_its_rule_says(legs: list[Leg]) -> None
     assert_valid(run.trace)
 
 
-@settings(max_examples=15, deadline=None, phases=PHASES)
+@settings(max_examples=examples(15), deadline=None, phases=PHASES)
 @given(
     legs=st.lists(LEG, min_size=2, max_size=6).map(usable).filter(lambda legs: len(legs) > 1),
     overrides=st.lists(st.tuples(st.integers(1, 80), st.sampled_from([0.0, 0.1, 0.5, 0.9, 1.0])), max_size=8),

@@ -45,6 +45,27 @@ def test_the_message_tells_what_is_not_as_described() -> None:
     assert_valid(run.trace)
 
 
+@pytest.mark.parametrize(
+    ("search", "sync", "text"),
+    [
+        (Direction.POSITIVE, Direction.UNDEFINED, "search_direction=POSITIVE)"),
+        (Direction.POSITIVE, Direction.NEGATIVE, "search_direction=POSITIVE)"),
+        (Direction.POSITIVE, Direction.POSITIVE, "search_direction=POSITIVE, sync_direction=POSITIVE)"),
+        (Direction.NEGATIVE, Direction.POSITIVE, "home(position=7.0)"),
+        (Direction.UNDEFINED, Direction.NEGATIVE, "home(position=7.0, sync_direction=NEGATIVE)"),
+    ],
+)
+def test_the_direction_off_the_cam_is_told_where_the_search_does_not_tell_it(
+    search: Direction, sync: Direction, text: str
+) -> None:
+    """From the cam, so that the way off it is all that there is; `verify` holds it against the message."""
+    run, x = ready(home=SWITCH | {"mode": "cam", "switch_width": 5.0}, start_position=-52.0)
+    finish(run, x.home(search_direction=search, sync_direction=sync))
+    run.step(2)
+    assert any(event.text.endswith(text) for event in run.trace.events)
+    assert_valid(run.trace)
+
+
 def test_a_cam_means_nothing_after_the_end() -> None:
     run, x = ready()
     home = x.home()

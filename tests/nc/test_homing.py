@@ -33,7 +33,7 @@ def test_direct_homing_defines_the_present_position() -> None:
 
 def drive_position(x: Axis) -> float:
     """Return where the drive is told to be in its own coordinate, which homing does not touch."""
-    return float(x._table[Q.SET_P, 0] - x._table[Q.SHIFT, 0])
+    return float(x._store.table[Q.SET_P, 0] - x._store.table[Q.SHIFT, 0])
 
 
 @pytest.mark.parametrize("direction", ["negative", "positive"])

@@ -24,11 +24,11 @@ def homed(axis: Axis) -> bool:
 
 def phases(run: Any, axis: Any, command: Any) -> list[int]:
     """Step until a homing has ended; return its phases in order."""
-    seen = [int(axis._table[Q.HOMING, axis._column])]
+    seen = [int(axis._store.table[Q.HOMING, axis._column])]
     while command.busy:
         assert run.tick < 60_000, "the homing did not end"
         run.step()
-        phase = int(axis._table[Q.HOMING, axis._column])
+        phase = int(axis._store.table[Q.HOMING, axis._column])
         if phase != seen[-1]:
             seen.append(phase)
     return seen
@@ -42,7 +42,7 @@ def test_the_edge_at_which_the_axis_leaves_the_cam_is_the_reference(start: float
     assert seen == ([2, 3, 4, 6, 0] if start > -50.0 else [4, 6, 0])
     assert homed(x)
     finish(run, x.move_absolute(7.0))
-    assert x.set_position - float(x._table[Q.SHIFT, 0]) == pytest.approx(-50.0, abs=1e-12)
+    assert x.set_position - float(x._store.table[Q.SHIFT, 0]) == pytest.approx(-50.0, abs=1e-12)
     run.step(2)
     assert_valid(run.trace)
 
@@ -52,7 +52,7 @@ def test_the_zero_pulse_behind_the_cam_is_the_reference() -> None:
     home = x.home()
     assert phases(run, x, home) == [2, 3, 4, 5, 6, 0]
     finish(run, x.move_absolute(7.0))
-    assert x.set_position - float(x._table[Q.SHIFT, 0]) == pytest.approx(-48.75, abs=1e-12)
+    assert x.set_position - float(x._store.table[Q.SHIFT, 0]) == pytest.approx(-48.75, abs=1e-12)
     run.step(2)
     assert_valid(run.trace)
 
@@ -63,7 +63,7 @@ def test_with_a_servo_the_reference_is_where_the_drive_was() -> None:
     finish(run, x.home(), 60_000)
     finish(run, x.move_absolute(7.0))
     run.step(500)
-    assert x.actual_position - float(x._table[Q.SHIFT, 0]) == pytest.approx(-48.75, abs=1e-6)
+    assert x.actual_position - float(x._store.table[Q.SHIFT, 0]) == pytest.approx(-48.75, abs=1e-6)
     assert_valid(run.trace)
 
 
@@ -85,7 +85,7 @@ def test_errors(home: dict[str, Any], start: float, error: ErrorId) -> None:
     assert not homed(x)
     run.step(300)
     assert x.set_velocity == 0.0
-    assert x._table[Q.HOMING, 0] == 0.0
+    assert x._store.table[Q.HOMING, 0] == 0.0
     assert_valid(run.trace)
 
 
@@ -109,7 +109,7 @@ def test_a_cam_of_finite_width_has_its_reference_at_the_edge_of_the_search(start
     run, x = ready(home=CAM | {"velocity": 20.0, "switch_width": 1.0}, start_position=start)
     finish(run, x.home(), 60_000)
     finish(run, x.move_absolute(7.0))
-    assert x.set_position - float(x._table[Q.SHIFT, 0]) == pytest.approx(-50.0, abs=1e-12)
+    assert x.set_position - float(x._store.table[Q.SHIFT, 0]) == pytest.approx(-50.0, abs=1e-12)
     run.step(2)
     assert_valid(run.trace)
 
@@ -124,7 +124,7 @@ def test_a_cam_that_is_left_on_its_other_side_is_latched_there(servo: bool) -> N
     finish(run, x.home(), 60_000)
     finish(run, x.move_absolute(7.0))
     run.step(500)
-    assert x.set_position - float(x._table[Q.SHIFT, 0]) == pytest.approx(-51.0, abs=1e-9)
+    assert x.set_position - float(x._store.table[Q.SHIFT, 0]) == pytest.approx(-51.0, abs=1e-9)
     assert_valid(run.trace)
 
 
@@ -140,6 +140,20 @@ def test_a_search_is_bounded_although_nobody_says_how_far_it_goes(changes: dict[
     """Twice the span of the software limits; without them what takes ten minutes."""
     _, x = ready(home=CAM, **changes)
     assert x.config.home.travel == bound
+
+
+@pytest.mark.parametrize("travel", [0.77, 0.79, 0.8, 0.81])
+def test_a_search_may_end_in_the_tick_in_which_it_is_up_to_speed(travel: float) -> None:
+    """Its velocity is reached after 0.8 mm: that end is not taken for the end of the brake."""
+    run, x = ready(home=CAM | {"travel": travel})
+    finish(run, x.home())
+    reset = x.reset()
+    run.step()
+    assert reset.busy
+    assert x.set_velocity < -30.0
+    finish(run, reset)
+    assert x.set_velocity == 0.0
+    assert_valid(run.trace)
 
 
 def test_a_switch_that_never_comes_ends_the_search() -> None:
@@ -252,10 +266,10 @@ def test_a_shift_in_motion_takes_the_targets_along(shift: float) -> None:
     move = x.move_absolute(100.0)
     after = x.move_absolute(150.0, velocity=100.0, buffer_mode=BufferMode.BLENDING_LOW)
     run.step(60)
-    place, drive = x.set_position, x.set_position - float(x._table[Q.SHIFT, 0])
+    place, drive = x.set_position, x.set_position - float(x._store.table[Q.SHIFT, 0])
     assert x.define_position(shift, relative=True).done
     assert x.set_position == place + shift
-    assert x.set_position - float(x._table[Q.SHIFT, 0]) == pytest.approx(drive, abs=1e-12)
+    assert x.set_position - float(x._store.table[Q.SHIFT, 0]) == pytest.approx(drive, abs=1e-12)
     finish(run, move)
     finish(run, after)
     assert x.set_position == 150.0 + shift

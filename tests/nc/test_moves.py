@@ -276,5 +276,5 @@ def test_commands_work_in_a_program_as_outside() -> None:
             play(run, program)
         else:
             finish(run, x.move_absolute(300.0))
-        results.append((x.set_position, x._table[5:13, 0].tobytes()))
+        results.append((x.set_position, x._store.table[5:13, 0].tobytes()))
     assert results[0] == results[1]

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from motionlayer import AxisState
+from motionlayer.verify import assert_valid
 from tests.machines import assert_smooth, finish, follow, ready
 
 PHASES = [0, 1, 20, 60, 100, 300, 650, 680, 720, 745]
@@ -161,3 +162,23 @@ def test_the_smallest_overrides_do_not_harm(factor: float) -> None:
     x.set_override(1.0)
     finish(run, move)
     assert x.set_position == 300.0
+
+
+@pytest.mark.parametrize("ticks", [0, 100])
+def test_a_continuous_motion_held_for_long_has_not_passed_its_target(ticks: int) -> None:
+    """It passes at a time of its profile; the hold is another profile, whose time goes on."""
+    run, x = ready()
+    x.set_override(1.0 if ticks else 0.0)
+    run.step()
+    x.move_continuous_absolute(200.0, 20.0, velocity=100.0)
+    run.step(ticks)
+    x.set_override(0.0)
+    run.step(5000)
+    held = x.set_position
+    x.set_override(1.0)
+    run.step(1000)
+    assert x.set_velocity == 100.0
+    assert 90.0 < x.set_position - held < 100.0
+    run.step(2000)
+    assert x.set_velocity == 20.0
+    assert_valid(run.trace)

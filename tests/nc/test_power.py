@@ -172,7 +172,7 @@ def test_disable_and_reset_in_error_in_motion_both_end() -> None:
 
 def lose_power(x: Axis) -> None:
     """What a drive does that switches itself off."""
-    x._table[Q.ENABLE, 0] = 0.0
+    x._store.table[Q.ENABLE, 0] = 0.0
 
 
 def test_power_lost_in_motion_is_an_error() -> None:

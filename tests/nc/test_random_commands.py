@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from motionlayer import Machine, Trace
 from motionlayer.bench.campaign._acts import CALLS, CHOICES, Act, Part
 from motionlayer.bench.campaign._life import Life, live, perform, violations
+from tests.effort import examples
 
 AXES: dict[str, dict[str, Any]] = {
     "X": {
@@ -124,7 +125,7 @@ def check(parts: list[Part]) -> None:
     assert violations(trace, commands) == []
 
 
-@settings(max_examples=60, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(60), deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 @given(st.lists(PART, min_size=1, max_size=4))
 def test_random_commands(parts: list[Part]) -> None:
     check(parts)
@@ -137,7 +138,7 @@ def test_many_random_commands(parts: list[Part]) -> None:
     check(parts)
 
 
-@settings(max_examples=10, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(10), deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 @given(st.lists(PART, min_size=2, max_size=3))
 def test_the_same_commands_give_the_same_hash_with_and_without_a_trace(parts: list[Part]) -> None:
     hashes = [perform(Life(MACHINE, parts), trace=trace)[0].close() for trace in (True, True, False)]

@@ -8,7 +8,9 @@ from hypothesis import strategies as st
 
 from motionlayer.command import ErrorId
 from motionlayer.nc import BufferMode, Direction, RampKeywords
+from motionlayer.profile import RANGES
 from motionlayer.verify import assert_valid
+from tests.effort import examples
 from tests.machines import LINEAR, error_of, ready
 
 SCALED = [key for key in LINEAR if key.startswith(("max_", "software_"))]
@@ -52,8 +54,8 @@ def play(unit: float, target: float, moves: list[tuple[int, str, float, float]],
 
 
 def in_range(distance: float) -> float:
-    """Return 0 for a distance that is finer than the published range, which nothing can measure."""
-    return distance if abs(distance) > 1e-40 else 0.0
+    """Return 0 for a distance that is finer than the published range in one of the units."""
+    return distance if abs(distance) * min(UNITS) >= RANGES.smallest else 0.0
 
 
 MOVE = st.tuples(
@@ -64,7 +66,7 @@ MOVE = st.tuples(
 )
 
 
-@settings(max_examples=15, deadline=None, phases=(Phase.explicit, Phase.reuse, Phase.generate))
+@settings(max_examples=examples(15), deadline=None, phases=(Phase.explicit, Phase.reuse, Phase.generate))
 @given(
     target=st.floats(-100.0, 400.0).map(in_range),
     moves=st.lists(MOVE, min_size=1, max_size=4),
@@ -93,7 +95,7 @@ def test_a_way_beyond_the_limit_is_refused_however_small_its_unit_makes_it(unit:
     assert error_of(overshoots) is ErrorId.OVERRUN
 
 
-@settings(max_examples=25, deadline=None, phases=(Phase.explicit, Phase.reuse, Phase.generate))
+@settings(max_examples=examples(25), deadline=None, phases=(Phase.explicit, Phase.reuse, Phase.generate))
 @given(
     ticks=st.integers(150, 800),
     share=st.floats(0.05, 1.0),

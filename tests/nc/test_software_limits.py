@@ -8,6 +8,7 @@ import pytest
 from motionlayer import AxisState
 from motionlayer.command import ErrorId
 from motionlayer.nc import Direction
+from motionlayer.verify import assert_valid
 from tests.machines import assert_smooth, error_of, finish, follow, ready, state_of
 
 LOW, HIGH = -100.0, 400.0
@@ -123,3 +124,18 @@ def test_one_limit_alone(side: str) -> None:
     move = x.move_velocity(500.0, bound)
     finish(run, move)
     assert x.set_position == (HIGH if side == "software_limit_min" else LOW)
+
+
+@pytest.mark.parametrize(("low", "position"), [(0.3, 398.0), (0.7, 390.0), (0.0, 399.9), (0.5, HIGH)])
+def test_an_end_velocity_is_lowered_to_what_the_limit_behind_allows(low: float, position: float) -> None:
+    """Also when the override was low at first: what it allows then could not be braked after it has risen."""
+    run, x = ready()
+    x.set_override(low)
+    move = x.move_continuous_absolute(position, 500.0)
+    run.step(700)
+    x.set_override(1.0)
+    rows = follow(run, x, move)
+    assert error_of(move) is ErrorId.MAXIMUM_PASSED
+    assert rows[:, 0].max() <= HIGH
+    assert x.set_position == HIGH
+    assert_valid(run.trace)

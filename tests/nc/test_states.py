@@ -99,7 +99,7 @@ def test_state_meets_command(situation: str, call: str) -> None:
     if isinstance(expected, AxisState):
         assert command.error is None
         assert state_of(x) is expected
-        assert x._table[Q.STATE, 0] == expected
+        assert x._store.table[Q.STATE, 0] == expected
     else:
         assert error_of(command) is expected
         assert everything(x) == before
@@ -119,7 +119,7 @@ def test_the_axis_goes_on_after_a_refused_command(situation: str, call: str) -> 
         rows = []
         for _ in range(300):
             run.step()
-            rows.append(x._table.tobytes())
+            rows.append(x._store.table.tobytes())
         futures.append(rows)
     assert futures[0] == futures[1]
 

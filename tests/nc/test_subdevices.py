@@ -1,6 +1,6 @@
 from motionlayer.event import Device, Event, Level, Subdevice
 from motionlayer.nc import Axis
-from motionlayer.nc._subdevices import SUBDEVICES, axis_device, subdevice_of
+from motionlayer.nc._subdevices import SUBDEVICES, axis_device
 from tests.machines import finish, ready
 
 
@@ -9,8 +9,9 @@ def test_every_name_is_that_of_a_method() -> None:
 
 
 def test_a_command_without_a_block_of_its_own_belongs_to_the_control_of_the_axis() -> None:
-    assert subdevice_of("X.passes") is Subdevice.AxisControl
-    assert subdevice_of("X.move_absolute") is Subdevice.fbMovePtP
+    _, axis = ready()
+    assert axis.passes(1.0).part is Subdevice.AxisControl
+    assert axis.move_absolute(1.0).part is Subdevice.fbMovePtP
 
 
 def test_axes_count_from_one_as_far_as_ids_go() -> None:

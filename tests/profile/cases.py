@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from motionlayer._kernel import MODE
 from motionlayer.profile import Limits, Profile, plan_position, plan_stop, plan_velocity
+from tests.effort import examples
 
 
 class Problem(NamedTuple):
@@ -34,13 +35,13 @@ class Problem(NamedTuple):
 
 
 def some(count: int) -> settings:
-    """Take `count` examples, or a few of them where the kernels are plain Python."""
-    return settings(max_examples=max(count // 20, 5) if MODE == "plain" else count, deadline=None)
+    """Take `count` examples, as far as the suite wants them, or a few of them where the kernels are plain Python."""
+    return settings(max_examples=max(count // 20, 5) if MODE == "plain" else examples(count), deadline=None)
 
 
 def many(count: int) -> int:
-    """Return the length of a loop: as it is, or a fraction where the kernels are plain Python."""
-    return count // 50 if MODE == "plain" else count
+    """Return the length of a loop, as far as the suite wants it, or a fraction where the kernels are plain Python."""
+    return count // 50 if MODE == "plain" else examples(count)
 
 
 def calm(v: float, a: float, limits: Limits) -> bool:

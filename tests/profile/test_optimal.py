@@ -22,6 +22,7 @@ from motionlayer.profile import (
 )
 from motionlayer.profile._check import time_back
 from motionlayer.profile._meet import gain
+from tests.effort import examples
 
 from .linear import Start, can_meet, can_return
 from .physics import assert_lawful, curve
@@ -118,7 +119,7 @@ def outside(source: random.Random) -> tuple[Start, Limits]:
 
 def test_way_back_to_the_velocity_limit_is_the_shortest() -> None:
     source = random.Random(1)
-    for _ in range(40):
+    for _ in range(examples(40)):
         start, limits = outside(source)
         profile = plan_position(0.0, *start, 1e6, limits)
         assert_lawful(profile, (0.0, *start), limits)
@@ -144,7 +145,7 @@ def test_a_stop_or_a_target_behind_is_back_below_the_velocity_limit_as_early_as_
     # They lead on through the limit. How hard they may brake there, the way beyond says: to rest, or through v = 0 with
     # |a| <= min(A, D) to the velocity limit on the other side.
     source = random.Random(2)
-    for _ in range(25):
+    for _ in range(examples(25)):
         start, limits = outside(source)
         vel, acc, dec, jerk = limits
         behind = stop_displacement(*start, dec, jerk) - 1e6

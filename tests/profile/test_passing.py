@@ -202,3 +202,13 @@ def test_a_target_reached_already_is_the_motion_itself() -> None:
     profile = plan_passing(3.0, 40.0, 0.0, 3.0, 40.0, LIMITS)
     assert profile.pieces.tolist() == [[0.0, 3.0, 40.0, 0.0, 0.0]]
     assert plan_position(3.0, 0.0, 0.0, 3.0, LIMITS).duration == 0.0
+
+
+def test_a_turn_that_comes_back_just_as_far_is_the_fastest_way() -> None:
+    """The way there and back is much longer than the way between: its rounding is no miss to be made up for."""
+    limits = Limits(3290.389195627944, 44064.0337728279, 98958.19433547233, 235762.46642259829)
+    start, place = (2382.531902345335, -2129.889425760415, 864.6030491129646), 2390.346643709829
+    velocity = passable_velocity(*start, place, limits.velocity, limits)
+    profile = plan_passing(*start, place, velocity, limits)
+    assert len(profile.pieces) == 3
+    assert profile.pieces[-1, 1:4].tolist() == [place, velocity, 0.0]

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from motionlayer.record import Trace, TraceError
 from motionlayer.record._container import CHUNK, HEAD, Chunk, chunks, pack_chunk, pack_head
+from tests.effort import examples
 
 from .samples import header, write
 
@@ -82,7 +83,7 @@ def test_damage_is_named_with_its_place_and_size(wrong: int) -> None:
     assert damage(zeroed) == f"chunk {number} at offset {start}: no chunk begins with {nothing!r}{lost}"
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 @given(data=st.data())
 def test_whatever_is_overwritten_in_the_middle_is_damage(data: st.DataObject) -> None:
     whole = b"".join(write(np.arange(12.0).reshape(12, 1), ["X"], size=5).chunks)

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from motionlayer.event import Event, Kind, Level
+from motionlayer.event import Event, Input, Kind, Level
 from motionlayer.record import Recorder, Signal, Trace, TraceError
 
 from .samples import Floats, event, plan, received
@@ -337,3 +337,14 @@ def test_any_other_failure_surfaces_too() -> None:
     recorder.event("no event")  # type: ignore[arg-type]
     with pytest.raises(TraceError, match="the trace writer failed: AttributeError"):
         recorder.close()
+
+
+def test_events_and_inputs_are_kept_without_signals_where_that_is_asked_for() -> None:
+    """A machine without axes has no signals, and its run can be repeated all the same."""
+    recorder = Recorder(np.zeros((4, 0)), [], {"base_cycle_ns": 1_000_000}, keep=True)
+    recorder.input(Input(0, "area.a", b"12"))
+    recorder.capture(0)
+    trace = recorder.trace()
+    assert [(one.tick, one.channel, one.payload) for one in trace.inputs] == [(0, "area.a", b"12")]
+    assert trace.signals == ()
+    assert trace.hash

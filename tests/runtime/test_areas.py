@@ -60,7 +60,7 @@ def test_a_copy_that_was_disturbed_is_made_again() -> None:
     area = image.add("a", 4)
     view = area.claim()
     image.publish(0)
-    halves = image._halves
+    halves = image._published._halves
     disturbances = [3, 2, 1, 0]
 
     class Disturbed:
@@ -84,7 +84,7 @@ def test_a_copy_that_was_disturbed_is_made_again() -> None:
         view[:] = bytes([tick] * 4)
         image.publish(tick)
 
-    image._halves = (Disturbed(0), Disturbed(1))  # type: ignore[assignment]
+    image._published._halves = (Disturbed(0), Disturbed(1))  # type: ignore[assignment]
     tick, data = area.read_with_tick()
     # Disturbed thrice and twice: again. Disturbed once: the other half was written, this one is whole.
     assert (tick, data) == (5, bytes([5] * 4))
@@ -310,3 +310,18 @@ def test_a_full_mailbox_reaches_who_writes_an_area() -> None:
     area.post(b"x")
     with pytest.raises(MailboxFull, match=r"channel area\.a"):
         area.post(b"y")
+
+
+def test_an_area_of_the_outside_tells_whether_anybody_has_written_it() -> None:
+    """Zeros that were written are not the zeros of an area that nobody has written."""
+    made, box, _ = areas()
+    there, own = made.add("there", 4, outside=True), made.add("own", 4)
+    own.claim()[:] = b"abcd"
+
+    def written(tick: int) -> list[bool]:
+        box.apply(tick)
+        return [there.written, own.written]
+
+    assert written(0) == [False, False]
+    there.post(bytes(4))
+    assert written(1) == [True, False]

@@ -19,6 +19,7 @@ from motionlayer.command import Command, all_of
 from motionlayer.event import Level
 from motionlayer.runtime import NotCopyable
 from motionlayer.runtime.copying import Copies
+from tests.effort import examples
 
 
 class Node:
@@ -91,7 +92,7 @@ class Garden:
                 setattr(thing, name, value)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(st.integers(0, 10**9))
 def test_any_graph_of_objects_comes_back_with_its_identities(seed: int) -> None:
     garden = Garden(seed)
@@ -170,6 +171,16 @@ def test_memory_that_is_shared_comes_back() -> None:
     numbers[1] = 3.5
     copies.put_back()
     assert bytes(memory) == b"\1\2\3\4\5\6\7\0" * 2
+
+
+def test_a_column_of_an_array_seen_as_memory_is_copied_with_the_array() -> None:
+    table = np.arange(12.0).reshape(3, 4)
+    column: Any = table[:, 1].data
+    copies = Copies([("columns", [column, table[:, 2].data])], ())
+    column[2] = 3.5
+    table[0] = -1.0
+    copies.put_back()
+    assert (table == np.arange(12.0).reshape(3, 4)).all()
 
 
 @pytest.mark.parametrize(

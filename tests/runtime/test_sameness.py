@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from motionlayer import Simulation, Trace
 from motionlayer.nc import Direction
 from tests.machines import SWITCH, machine
@@ -64,7 +66,7 @@ def test_no_observer_at_all_moves_the_same() -> None:
     for trace in (True, None):
         run = Simulation(machine(3, home=SWITCH), trace=trace)
         perform(run)
-        ends.append([axis._table.tobytes() for axis in run.axes.values()])
+        ends.append([axis._store.table.tobytes() for axis in run.axes.values()])
     assert ends[0] == ends[1]
 
 
@@ -89,6 +91,7 @@ def test_a_pause_between_ticks_changes_nothing() -> None:
     assert len(set(hashes)) == 1
 
 
+@pytest.mark.slow
 def test_the_hash_seed_of_python_does_not_matter() -> None:
     code = "from tests.runtime.test_sameness import run_hash; print(run_hash(trace=False))"
     hashes = []

@@ -15,6 +15,7 @@ from motionlayer.machine import LogDescription
 from motionlayer.record import Trace, TraceError
 from motionlayer.runtime import CycleFault, NotCopyable, Run
 from motionlayer.verify import assert_valid
+from tests.effort import examples
 from tests.machines import machine, one_axis, ready
 from tests.record.log.support import files
 from tests.runtime.bare import stepped
@@ -53,7 +54,7 @@ def undisturbed(seed: int, ticks: int) -> tuple[Any, Trace]:
     return state(run), run.trace
 
 
-@settings(max_examples=8, deadline=None, derandomize=True)
+@settings(max_examples=examples(8), deadline=None, derandomize=True)
 @given(st.integers(0, 10**6), st.integers(0, 1200), st.lists(st.integers(1, 400), min_size=1, max_size=3))
 def test_a_restored_run_goes_on_as_one_that_has_never_been_elsewhere(seed: int, first: int, ways: list[int]) -> None:
     run = lively(seed)

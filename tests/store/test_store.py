@@ -44,6 +44,16 @@ def test_ring_or_stranger_in_a_sum_is_refused(sums: list[tuple[int, int]]) -> No
         Store(3, dt=DT, max_pieces=4, sums=sums)
 
 
+def test_a_column_is_a_view_of_the_table() -> None:
+    store = Store(3, dt=1e-3, max_pieces=4)
+    column = store.column(1)
+    column[Q.SET_P] = 7.0
+    store.table[Q.SET_V] = [1.0, 2.0, 3.0]
+    assert store.table[Q.SET_P].tolist() == [0.0, 7.0, 0.0]
+    assert column[Q.SET_V] == 2.0
+    assert len(column) == Q.COUNT
+
+
 def test_profile_with_too_many_pieces_is_refused_and_changes_nothing() -> None:
     store = moving()
     arrays = store.table, store.pieces, store.counts, store.current, store.appended
@@ -120,6 +130,16 @@ def test_watch_on_a_tick_and_at_rest(way: float) -> None:
     assert passed(store, 0, rest, 20) == [(8, 0.5 * DT)]  # where it stops counts as passed, when it gets there
     assert passed(store, 0, rest, 20) == []  # where it stands does not
     assert passed(store, 0, rest + way * DT, 20) == []
+
+
+def test_the_end_of_a_profile_that_a_watch_has_replaced_is_not_that_of_the_new_one() -> None:
+    store = Store(2, dt=DT, max_pieces=2)
+    short, long = (np.array([[0.0, 0.0, 1.0, 0.0, 0.0], [n * DT, n * DT, 0.0, 0.0, 0.0]]) for n in (7.5, 3.5))
+    for column in range(2):
+        store.adopt(column, short)
+    store.watch(Watch(0, 7.25 * DT, lambda _early: store.adopt(0, long)))
+    ended = [(tick, one.column) for tick in range(1, 20) for one in store.sample(tick)]
+    assert ended == [(8, 1), (12, 0)]
 
 
 @settings(max_examples=50, deadline=None)

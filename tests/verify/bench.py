@@ -140,15 +140,20 @@ class Bench:
         self.limits = usual
 
     def stop(self, state: int = STOPPING) -> None:
+        usual, before = self.limits, self.plans[-1]
+        if self.now[1:] != (0.0, 0.0):  # no weaker than what it brakes
+            deceleration, jerk = max(usual.deceleration, before.deceleration), max(usual.jerk, before.jerk)
+            self.limit(deceleration=deceleration, jerk=jerk)
         self.accept("stop()" if state == STOPPING else "halt()")
         self.state = state
         self._plan("stop", math.nan, to_stop(self.now, self.limits))
+        self.limits = usual
 
     def fault(self) -> None:
         self.events.append(Event(self.tick, Level.ERROR, Kind.MESSAGE, self.name, "", 0x4550, 0))
         if self.open:
             self.event(Kind.ERROR)
-        self.open, self.state = 0, ERRORSTOP
+        self.open, self.state, self.limits = 0, ERRORSTOP, self.maxima
         self._plan("stop", math.nan, to_stop(self.now, self.limits))
 
     def home(self, position: float) -> None:

@@ -141,6 +141,88 @@ def test_a_jog_leads_as_far_as_its_step_and_the_right_way() -> None:
         assert "leads to another place" in _messages(_told(trace, old, new))
 
 
+def test_a_jog_in_motion_leads_to_a_multiple_of_the_coordinate_that_it_was_given_in() -> None:
+    """A shift in the tick in which it begins comes behind it: the multiple is shifted, not looked for again."""
+    run = _run()
+    x = run.axes["X"]
+    x.move_absolute(300.0)
+    run.step(60)
+    jog = x.jog(Direction.POSITIVE, JogMode.INCHING_MODULO, step=70.0, velocity=100.0)
+    x.define_position(33.0, relative=True)
+    run.step(1500)
+    assert jog.done
+    assert x.set_position == pytest.approx(103.0, abs=1e-9)
+    assert_valid(run.trace)
+    for old, new in (
+        ("step=70.0", "step=71.0"),
+        ("step=70.0", "step=7.0"),
+        ("direction=POSITIVE", "direction=NEGATIVE"),
+    ):
+        assert "leads to another place" in _messages(_told(run.trace, old, new))
+
+
+@pytest.mark.parametrize("way", [Direction.POSITIVE, Direction.CURRENT, Direction.SHORTEST_WAY])
+def test_a_modulo_move_in_motion_takes_the_first_orientation_that_it_can_rest_at(way: Direction) -> None:
+    run = _run(max_deceleration=2000.0)
+    x = run.axes["X"]
+    x.move_velocity(300.0)
+    run.step(450)
+    assert 95.0 < x.set_position < 130.0
+    move = x.move_modulo(150.0, way, velocity=300.0, deceleration=500.0)
+    x.define_position(40.0, relative=True)
+    run.step(3000)
+    assert move.done
+    assert x.set_position == pytest.approx(190.0, abs=1e-9)
+    assert_valid(run.trace)
+    for other in ("position=151.0", "position=149.0"):
+        assert "leads to another place" in _messages(_told(run.trace, "position=150.0", other))
+    axis = run.trace.header["machine"]["axis"]["X"] | {"modulo": {"period": 3.0, "tolerance": 0.0}}
+    header = {**run.trace.header, "machine": {"axis": {"X": axis}}}  # it could have come to rest some turns before
+    assert "leads to another place" in _messages(changed(run.trace, header=header))
+    if way is Direction.POSITIVE:
+        assert "leads to another place" in _messages(
+            _told(run.trace, "150.0, direction=POSITIVE", "150.0, direction=NEGATIVE")
+        )
+
+
+def test_a_command_counts_as_the_last_one_if_it_was_active_and_replaced_before_it_moved() -> None:
+    run = _run()
+    x = run.axes["X"]
+    first = x.move_absolute(20.0)
+    second = x.move_relative(30.0, buffer_mode=BufferMode.BUFFERED)
+    x.set_override(0.5)
+    while first.busy:
+        x.set_override(0.0 if x.set_position > 19.0 and x.override else x.override or 0.5)
+        run.step()
+    assert second.active
+    x.halt()
+    run.step(5)
+    x.move_additive(7.0)
+    run.step(600)
+    assert x.set_position == pytest.approx(57.0, abs=1e-9)
+    assert second.aborted
+    assert_valid(run.trace)
+    assert "leads to another place" in _messages(_told(run.trace, "distance=30.0", "distance=31.0"))
+
+
+@pytest.mark.parametrize("call", ["move_absolute", "move_velocity"])
+def test_what_the_override_holds_is_not_done(call: str) -> None:
+    run = _run()
+    x = run.axes["X"]
+    getattr(x, call)(100.0)
+    run.step(100)
+    x.set_override(0.0)
+    run.step(300)
+    x.halt()
+    run.step(5)
+    assert_valid(run.trace)
+    wrong = tuple(
+        event._replace(kind=Kind.DONE) if event.kind == Kind.ABORTED and call in event.text else event
+        for event in run.trace.events
+    )
+    assert "is done where the override held it" in _messages(changed(run.trace, events=wrong))
+
+
 @pytest.mark.parametrize("mode", ["switch", "cam", "index"])
 def test_each_search_of_a_homing_has_the_velocity_of_the_machine_description(mode: str) -> None:
     home = {"mode": mode, "switch": -10.0, "velocity": 50.0, "sync_velocity": 20.0, "pulse_period": 4.0}
@@ -167,7 +249,7 @@ def test_each_search_of_a_homing_has_the_velocity_of_the_machine_description(mod
         (", search_velocity=60.0", ""),
         ("sync_velocity=5.0", "sync_velocity=6.0"),
         ("search_direction=POSITIVE", "search_direction=NEGATIVE"),
-        ("sync_direction=NEGATIVE", "sync_direction=POSITIVE"),
+        ("search_direction=POSITIVE", "search_direction=POSITIVE, sync_direction=POSITIVE"),
     ],
 )
 def test_a_homing_that_asks_for_its_own_searches_does_them(old: str, new: str) -> None:

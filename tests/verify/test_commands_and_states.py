@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from motionlayer.event import Event, Kind, Level
 from motionlayer.record import Trace
 from motionlayer.verify import assert_valid, verify
+from tests.effort import examples
 
 from .bench import CONTINUOUS, DISABLED, DISCRETE, ERRORSTOP, HOMING, STANDSTILL, STOPPING, Bench, changed
 from .planner import to_position
@@ -75,7 +76,7 @@ def _with_state(trace: Trace, row: int, state: float) -> Trace:
     return trace.replace({"X.state": values})
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 @given(st.integers(0, len(recorded("mm").ticks) - 2), st.sampled_from([0.0, 2.5, *map(float, range(1, 10))]))
 def test_a_changed_state_is_found_where_the_axis_moves(row: int, state: float) -> None:
     trace = recorded("mm")

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from motionlayer.record import Plan, Trace
 from motionlayer.verify import verify
+from tests.effort import examples
 
 from .bench import changed
 from .scenarios import recorded
@@ -48,7 +49,7 @@ def test_a_doubled_plan_is_found() -> None:
 
 
 @given(st.data())
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 def test_a_missing_piece_is_found(data: st.DataObject) -> None:
     trace = recorded("mm")
     index = data.draw(st.sampled_from([i for i, plan in enumerate(trace.plans) if len(plan.pieces) > 1]))
@@ -61,7 +62,7 @@ def test_a_missing_piece_is_found(data: st.DataObject) -> None:
 
 
 @given(st.data())
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 def test_a_changed_number_of_a_piece_is_found(data: st.DataObject) -> None:
     trace = recorded("mm")
     index = data.draw(st.integers(0, len(trace.plans) - 1))

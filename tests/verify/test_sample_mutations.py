@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from motionlayer.record import Trace
 from motionlayer.verify import assert_valid, tolerance, verify
+from tests.effort import examples
 
 from .bench import SIGNALS
 from .scenarios import SIZES, axis, quantised, recorded
@@ -25,7 +26,7 @@ def _is_found(trace: Trace, signal: str, where: float, factor: float) -> bool:
     return row in {finding.tick for finding in verify(trace.replace({name: values})).findings}
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=examples(400), deadline=None)
 @given(
     st.sampled_from(sorted(SIZES)),
     st.sampled_from(NUMBERS),
@@ -37,7 +38,7 @@ def test_a_changed_sample_is_found(size: str, signal: str, where: float, factor:
     assert _is_found(recorded(size), signal, where, sign * factor)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(st.sampled_from(NUMBERS), st.floats(0.0, 1.0), FACTORS, st.sampled_from([1.0, -1.0]))
 def test_a_changed_sample_is_found_in_quantised_signals(signal: str, where: float, factor: float, sign: float) -> None:
     assert _is_found(quantised(), signal, where, sign * factor)

@@ -79,7 +79,8 @@ def test_a_stop_that_dawdles_over_the_limit_is_found() -> None:
 def test_a_stop_weaker_than_the_motion_before_it_does_not_cross_the_limit() -> None:
     bench, _ = _turning()
     limit = _turn(bench) + 1e-6
-    assert _rules(_stopped(bench, to_stop(bench.now, WEAK), WEAK, limit)) == {"software limit"}
+    weak = _rules(_stopped(bench, to_stop(bench.now, WEAK), WEAK, limit))
+    assert weak == {"software limit", "command limits"}
 
 
 def test_a_profile_that_began_outside_does_not_excuse_what_takes_over_inside() -> None:

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from motionlayer.event import Event, Kind
 from motionlayer.verify import assert_valid, verify
+from tests.effort import examples
 
 from .bench import Bench, changed, join
 from .scenarios import SIZES, axis, everything, quantised, recorded
@@ -99,7 +100,7 @@ def _drive(bench: Bench, operation: str, share: float, ticks: int | None) -> Non
     bench.run(ticks if ticks is not None or operation != "limit" else 0)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(OPERATIONS, st.sampled_from(sorted(SIZES)))
 def test_any_sound_run_is_valid(operations: list[tuple[str, float, int | None]], size: str) -> None:
     bench = axis(size)

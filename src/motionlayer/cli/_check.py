@@ -5,10 +5,11 @@ from pathlib import Path
 import click
 
 from motionlayer.cli._exit import say
+from motionlayer.cli._options import machine_argument
 
 
 @click.command(short_help="Check a machine file.")
-@click.argument("machine", type=click.Path(path_type=Path))
+@machine_argument
 def check(machine: Path) -> None:
     """Check the file MACHINE completely; nothing runs.
 

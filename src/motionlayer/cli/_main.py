@@ -10,6 +10,7 @@ from motionlayer.cli._bench import bench
 from motionlayer.cli._check import check
 from motionlayer.cli._error import error
 from motionlayer.cli._exit import ExitCode, Stop, complain, exit_codes
+from motionlayer.cli._export import export
 from motionlayer.cli._new import new
 from motionlayer.cli._plot import plot
 from motionlayer.cli._replay import replay
@@ -53,7 +54,7 @@ def group() -> None:
     """Motion runtime: axes planned, sampled, recorded and checked."""
 
 
-for _command in (new, check, run, verify, plot, replay, soak, bench, schema, error):
+for _command in (new, check, run, verify, plot, replay, soak, bench, schema, export, error):
     group.add_command(_command)
 
 

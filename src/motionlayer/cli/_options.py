@@ -1,4 +1,4 @@
-"""The options of `run`, and what values must be where click has no type for it."""
+"""The options of `run`, those that other commands share with it, and what values must be where click has no type."""
 
 import math
 from pathlib import Path
@@ -64,8 +64,41 @@ def speed(_context: click.Context, _option: click.Parameter, value: float | None
     return value
 
 
+def require_clock(given: float | None, *, realtime: bool) -> None:
+    """Take a speed only in real time.
+
+    Raises:
+        UsageError: there is a speed, and no clock that it could be the speed of.
+    """
+    if given is not None and not realtime:
+        raise click.UsageError("--speed is that of a clock: give --realtime as well")
+
+
 def page(_context: click.Context, _option: click.Parameter, value: Path | None) -> Path | None:
     """Return a file for a page; its name is checked before a long run, not after it."""
     if value is not None and value.suffix.lower() not in PAGE_SUFFIXES:
         raise click.BadParameter(f"{value}: a page is written as .html; save pictures from it in a browser")
     return value
+
+
+machine_argument = click.argument("machine", type=click.Path(path_type=Path))
+
+program_option = click.option(
+    "--program",
+    metavar="FILE[:NAME]",
+    help="Run the function NAME of FILE in the place of the programs of MACHINE.  [NAME: main]",
+)
+
+seed_option = click.option(
+    "--seed", type=click.IntRange(0, 2**63 - 1), metavar="N", help="Seed, in the place of the one of MACHINE."
+)
+
+realtime_option = click.option("--realtime", is_flag=True, help="Run in the time of a clock.")
+
+speed_option = click.option(
+    "--speed",
+    type=float,
+    callback=speed,
+    metavar="X",
+    help="With --realtime: X times as fast as real time, 0.01 to 1000.  [1]",
+)

@@ -4,22 +4,26 @@ from pathlib import Path
 
 import click
 
-from motionlayer.cli._options import LEVELS, Options, page, seconds, speed
+from motionlayer.cli._options import (
+    LEVELS,
+    Options,
+    machine_argument,
+    page,
+    program_option,
+    realtime_option,
+    seconds,
+    seed_option,
+    speed_option,
+)
 
 
 @click.command(short_help="Run a machine, in simulation or in real time.")
-@click.argument("machine", type=click.Path(path_type=Path))
-@click.option(
-    "--program",
-    metavar="FILE[:NAME]",
-    help="Run the function NAME of FILE in the place of the programs of MACHINE.  [NAME: main]",
-)
+@machine_argument
+@program_option
 @click.option(
     "--time", type=float, callback=seconds, metavar="S", help="End after S seconds of the run, at the latest."
 )
-@click.option(
-    "--seed", type=click.IntRange(0, 2**63 - 1), metavar="N", help="Seed, in the place of the one of MACHINE."
-)
+@seed_option
 @click.option("--trace", type=click.Path(path_type=Path), metavar="FILE", help="Record the run to FILE.")
 @click.option("--hash", is_flag=True, help="Take the hash of the run, also without a trace.")
 @click.option(
@@ -47,14 +51,8 @@ from motionlayer.cli._options import LEVELS, Options, page, seconds, speed
     type=click.Choice(LEVELS),
     help="What is written beside errors, in the place of the level of MACHINE.  [info]",
 )
-@click.option("--realtime", is_flag=True, help="Run in the time of a clock.")
-@click.option(
-    "--speed",
-    type=float,
-    callback=speed,
-    metavar="X",
-    help="With --realtime: X times as fast as real time, 0.01 to 1000.  [1]",
-)
+@realtime_option
+@speed_option
 @click.option("--statistics", is_flag=True, help="Measure what the ticks cost; --realtime always does.")
 @click.pass_context
 def run(ctx: click.Context, /, **options: object) -> None:

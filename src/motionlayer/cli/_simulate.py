@@ -2,13 +2,12 @@
 
 import contextlib
 import math
-import os
 import sys
 import time
 import traceback
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Final, NamedTuple, NoReturn
+from typing import Final, NamedTuple, NoReturn
 
 import click
 
@@ -18,7 +17,8 @@ from motionlayer.cli._failure import place, program_failure
 from motionlayer.cli._files import draw, load_machine, refuse_overwriting
 from motionlayer.cli._interrupt import Interrupts, orderly
 from motionlayer.cli._log import log_of, losses, warn
-from motionlayer.cli._options import Options
+from motionlayer.cli._options import Options, require_clock
+from motionlayer.cli._programs import chosen, give_up, load
 from motionlayer.cli._progress import Progress
 from motionlayer.cli._summary import lines_of, summary
 from motionlayer.cli._tally import Tally
@@ -27,13 +27,10 @@ from motionlayer.machine import (
     Loaded,
     Machine,
     MachineRun,
-    ProgramError,
     RealTime,
+    RunKeywords,
     Simulation,
     Source,
-    load_program,
-    parse_source,
-    sources_of,
 )
 from motionlayer.record import TraceError
 from motionlayer.record.log import LogError
@@ -79,9 +76,8 @@ def simulate(options: Options) -> ExitCode:
 
 
 def _sources(machine: Machine, options: Options) -> list[Source]:
-    if options.speed is not None and not options.realtime:
-        raise click.UsageError("--speed is that of a clock: give --realtime as well")
-    sources = [parse_source(options.program)] if options.program else sources_of(machine)
+    require_clock(options.speed, realtime=options.realtime)
+    sources = chosen(machine, options.program)
     if not sources and options.time is None:
         raise click.UsageError(
             f"{options.machine} names no program, and the run would never end: give --program FILE[:NAME], or --time S"
@@ -90,10 +86,7 @@ def _sources(machine: Machine, options: Options) -> list[Source]:
 
 
 def _load(sources: Sequence[Source], options: Options) -> list[Loaded]:
-    try:
-        loaded = [load_program(source) for source in sources]
-    except ProgramError as error:
-        raise Stop(ExitCode.FAILED, f"{error}{place(error.__cause__)}") from error
+    loaded = load(sources)
     cyclic = [one.name for one in loaded if one.task is not None]
     if cyclic and options.time is None and not options.realtime:
         raise click.UsageError(
@@ -109,7 +102,7 @@ def _made(machine: Machine, programs: list[Loaded], options: Options) -> Machine
     if trace is None and (options.plot or options.hash):
         trace = options.plot is not None  # in memory, or the hash alone
     patience = options.patience or (REALTIME_PATIENCE if options.realtime else PATIENCE)
-    common: dict[str, Any] = {"seed": options.seed, "trace": trace, "programs": programs, "patience": patience}
+    common: RunKeywords = {"seed": options.seed, "trace": trace, "programs": programs, "patience": patience}
     common["log"] = log_of(machine, options)
     try:
         if options.realtime:
@@ -186,9 +179,7 @@ def _draw(run: MachineRun, page: Path | None, problems: list[Problem]) -> list[s
 
 
 def _give_up(run: MachineRun) -> NoReturn:
-    """End the process: a program swallows every interrupt, so that nothing else ends it."""
+    """End the process with what there is of trace and messages."""
     with contextlib.suppress(TraceError, LogError):
         run.close()
-    complain("a program does not yield and swallows interrupts (`except:` or `except BaseException`); ended here")
-    sys.stdout.flush()
-    os._exit(ExitCode.STUCK)
+    give_up()

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import click
 
-from motionlayer.cli._options import speed
+from motionlayer.cli._options import machine_argument, program_option, realtime_option, seed_option, speed_option
 
 
 class SoakOptions(NamedTuple):
@@ -42,7 +42,7 @@ def _json(_context: click.Context, _option: click.Parameter, value: Path | None)
 
 
 @click.command(short_help="Run a machine for long; report memory, drift, lateness.")
-@click.argument("machine", type=click.Path(path_type=Path))
+@machine_argument
 @click.option("--cycles", type=click.IntRange(1), required=True, metavar="N", help="Run N cycles.")
 @click.option(
     "--warm-up",
@@ -50,22 +50,10 @@ def _json(_context: click.Context, _option: click.Parameter, value: Path | None)
     metavar="N",
     help="Cycles after which memory counts.  [a tenth, at most 1000000]",
 )
-@click.option(
-    "--program",
-    metavar="FILE[:NAME]",
-    help="Run the function NAME of FILE in the place of the programs of MACHINE.  [NAME: main]",
-)
-@click.option(
-    "--seed", type=click.IntRange(0, 2**63 - 1), metavar="N", help="Seed, in the place of the one of MACHINE."
-)
-@click.option("--realtime", is_flag=True, help="Run in the time of a clock.")
-@click.option(
-    "--speed",
-    type=float,
-    callback=speed,
-    metavar="X",
-    help="With --realtime: X times as fast as real time, 0.01 to 1000.  [1]",
-)
+@program_option
+@seed_option
+@realtime_option
+@speed_option
 @click.option(
     "--trace",
     type=click.Path(path_type=Path),

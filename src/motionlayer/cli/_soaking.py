@@ -1,19 +1,19 @@
 """`motionlayer soak`: what it does."""
 
-import contextlib
-import os
 import sys
 import time
 from collections.abc import Sequence
-from typing import Any, Final, NoReturn
+from typing import Final
 
 import click
 
 from motionlayer.cli._exit import ExitCode, Stop, complain, say
-from motionlayer.cli._failure import place, program_failure
+from motionlayer.cli._failure import program_failure
 from motionlayer.cli._files import load_machine, load_trace, refuse_overwriting
 from motionlayer.cli._interrupt import Interrupts, orderly
 from motionlayer.cli._memory import MemoryWatch
+from motionlayer.cli._options import require_clock
+from motionlayer.cli._programs import chosen, give_up, load
 from motionlayer.cli._progress import Progress
 from motionlayer.cli._soak import SoakOptions
 from motionlayer.cli._soak_report import Soaked, SoakTally, lines, write
@@ -21,12 +21,9 @@ from motionlayer.machine import (
     Loaded,
     Machine,
     MachineRun,
-    ProgramError,
     RealTime,
+    RunKeywords,
     Simulation,
-    load_program,
-    parse_source,
-    sources_of,
 )
 from motionlayer.record import TraceError
 from motionlayer.runtime import CycleFault, ProgramStuck
@@ -44,12 +41,9 @@ def soaked(options: SoakOptions) -> ExitCode:
     warm_up = min(options.cycles // 10, MOST_WARM_UP) if options.warm_up is None else options.warm_up
     _check(options, warm_up)
     machine = load_machine(options.machine)
-    sources = [parse_source(options.program)] if options.program else sources_of(machine)
+    sources = chosen(machine, options.program)
     refuse_overwriting([options.trace, options.report], [options.machine, *(source.file for source in sources)])
-    try:
-        programs = [load_program(source) for source in sources]
-    except ProgramError as error:
-        raise Stop(ExitCode.FAILED, f"{error}{place(error.__cause__)}") from error
+    programs = load(sources)
     run = _made(machine, options)
     tally, memory = SoakTally(), MemoryWatch(warm_up, options.cycles, collect=not options.realtime)
     run.events.listen(tally)
@@ -72,7 +66,7 @@ def soaked(options: SoakOptions) -> ExitCode:
 
 
 def _made(machine: Machine, options: SoakOptions) -> MachineRun:
-    settings: dict[str, Any] = {"seed": options.seed, "trace": options.trace, "programs": (), "log": False}
+    settings: RunKeywords = {"seed": options.seed, "trace": options.trace, "programs": (), "log": False}
     try:
         if options.realtime:
             return RealTime(machine, speed=options.speed or 1.0, **settings)
@@ -97,8 +91,7 @@ def _judged(run: MachineRun, options: SoakOptions) -> tuple[str, str]:
 
 
 def _check(options: SoakOptions, warm_up: int) -> None:
-    if options.speed is not None and not options.realtime:
-        raise click.UsageError("--speed is that of a clock: give --realtime as well")
+    require_clock(options.speed, realtime=options.realtime)
     if warm_up >= options.cycles:
         raise click.UsageError(f"a warm-up of {warm_up} cycles leaves none of {options.cycles}: give more --cycles")
 
@@ -124,7 +117,7 @@ def _execute(run: MachineRun, options: SoakOptions, memory: MemoryWatch) -> tupl
     """Run to the end, whichever it is; return exit code and what went wrong, "" if nothing did."""
     cycle = run.base_cycle_ns * 1e-9
     try:
-        with Progress(options.cycles, cycle, sys.stderr) as progress, orderly(run, _give_up) as interrupts:
+        with Progress(options.cycles, cycle, sys.stderr) as progress, orderly(run, give_up) as interrupts:
 
             def watch(tick: int) -> None:
                 memory(tick)
@@ -148,11 +141,3 @@ def _execute(run: MachineRun, options: SoakOptions, memory: MemoryWatch) -> tupl
 def _interrupted(run: MachineRun, interrupts: Interrupts) -> tuple[ExitCode, str]:
     code, said = interrupts.ending
     return code, f"{said} after {run.tick} cycles"
-
-
-def _give_up() -> NoReturn:
-    """End the process: a program swallows every interrupt, so that nothing else ends it."""
-    complain("a program does not yield and swallows interrupts (`except:` or `except BaseException`); ended here")
-    with contextlib.suppress(OSError):
-        sys.stdout.flush()
-    os._exit(ExitCode.STUCK)

@@ -15,6 +15,7 @@ from motionlayer.command._command import (
     any_of,
 )
 from motionlayer.command._errors import ERRORS, RANGES, ErrorId, ErrorRange, ErrorText, range_of
+from motionlayer.command._keywords import only_known
 
 __all__ = [
     "ERRORS",
@@ -30,5 +31,6 @@ __all__ = [
     "ObjectInfo",
     "all_of",
     "any_of",
+    "only_known",
     "range_of",
 ]

@@ -7,7 +7,7 @@ knows nothing of axes.
 
 from motionlayer.drive._fault import FAULTS, Fault, FaultKind
 from motionlayer.drive._ideal import IdealDrives
-from motionlayer.drive._pulse import ZeroPulse, ZeroPulses
+from motionlayer.drive._latch import Latches, LatchSignals
 from motionlayer.drive._servo import Servo, ServoDrives
 from motionlayer.drive._switch import ReferenceSwitch
 
@@ -16,9 +16,9 @@ __all__ = [
     "Fault",
     "FaultKind",
     "IdealDrives",
+    "LatchSignals",
+    "Latches",
     "ReferenceSwitch",
     "Servo",
     "ServoDrives",
-    "ZeroPulse",
-    "ZeroPulses",
 ]

@@ -8,6 +8,7 @@ from motionlayer.event._device import BLOCK, Device, device_of
 from motionlayer.event._event import Event, EventLog, Kind, Level
 from motionlayer.event._input import Input
 from motionlayer.event._levels import Levels
+from motionlayer.event._message import Lists, MessageList, list_of, text_of
 from motionlayer.event._subdevice import Subdevice
 
 __all__ = [
@@ -19,6 +20,10 @@ __all__ = [
     "Kind",
     "Level",
     "Levels",
+    "Lists",
+    "MessageList",
     "Subdevice",
     "device_of",
+    "list_of",
+    "text_of",
 ]

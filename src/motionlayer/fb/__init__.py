@@ -23,6 +23,7 @@ from motionlayer.fb._parameter_blocks import (
     MC_WriteBoolParameterPersistent,
     MC_WriteParameter,
     MC_WriteParameterPersistent,
+    write_parameter,
 )
 from motionlayer.fb._parameter_numbers import MC_AxisParameter
 from motionlayer.fb._parameters import PARAMETERS
@@ -36,6 +37,9 @@ from motionlayer.fb._referencing import (
     ST_HomingOptions,
     ST_SetPositionOptions,
 )
+from motionlayer.fb._referencing import (
+    METHODS as HOMING_METHODS,
+)
 from motionlayer.fb._status import ST_AxisStatus
 from motionlayer.nc import AxisState as MC_AxisStates
 from motionlayer.nc import BufferMode as MC_BufferMode
@@ -46,6 +50,7 @@ from motionlayer.nc import JogMode as E_JogMode
 __all__ = [
     "AXIS_REF",
     "DEFAULT_HOME_POSITION",
+    "HOMING_METHODS",
     "PARAMETERS",
     "Block",
     "E_EncoderReferenceMode",
@@ -87,4 +92,5 @@ __all__ = [
     "ST_HomingOptions",
     "ST_MoveOptions",
     "ST_SetPositionOptions",
+    "write_parameter",
 ]

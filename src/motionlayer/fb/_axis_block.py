@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from motionlayer.command import Command, ErrorId
 from motionlayer.fb._axis_ref import AXIS_REF
-from motionlayer.fb._block import Block, CommandBlock, ExecuteBlock
+from motionlayer.fb._block import Block, Calls, CommandBlock, ExecuteBlock
 from motionlayer.fb._inputs import Input, boolean
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ class AxisCommandBlock(OfAxis, CommandBlock):
     """
 
     def _begin(self) -> None:
-        self._ledger = self._axis.ledger
+        self._calls = Calls(self._axis.ledger)
         super()._begin()
 
     def _refuse(self, method: str, error: ErrorId, name: str, allowed: str) -> Command[Any]:

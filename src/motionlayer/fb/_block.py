@@ -21,7 +21,9 @@ A busy block has to be called in every turn of its task. If it was not, and its 
 have told anybody in time: that is error 0x4B66. Source of the rules: function-blocks 1.4.
 """
 
+import difflib
 import enum
+from collections.abc import Iterable
 from typing import Any, ClassVar, Final
 
 from motionlayer.command import Command, ErrorId, Ledger, MotionError
@@ -63,8 +65,35 @@ NO_TURNS: Final = Ledger()
 """Stands still, until a block knows whom it commands."""
 
 
-class Block:
+class Calls:
+    """The calls of a block, counted in the turns of its task.
+
+    Attributes:
+        ledger: whose turns.
+        turn: of the last call.
+    """
+
+    __slots__ = ("ledger", "turn")
+
+    def __init__(self, ledger: Ledger) -> None:
+        self.ledger = ledger
+        self.turn = ledger.turn
+
+
+class Built(type):
+    """Kind of a class whose objects are complete once they have been built: no attribute can be added after that."""
+
+    def __call__(cls, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401 - as the class itself
+        """Build an object."""
+        made = super().__call__(*args, **kwargs)
+        made.__dict__["_built"] = True
+        return made
+
+
+class Block(metaclass=Built):
     """A function block; subclasses declare their inputs in the class body.
+
+    An attribute that it does not have cannot be set: a misspelt input would be silently without effect.
 
     Attributes:
         INPUTS: of the class, by name.
@@ -94,6 +123,12 @@ class Block:
         self.Error = False
         self.ErrorID = 0
 
+    def __setattr__(self, name: str, value: object) -> None:
+        fields = self.__dict__
+        if name not in fields and "_built" in fields:
+            raise AttributeError(self._unknown([name]))
+        fields[name] = value
+
     def __call__(self, **inputs: Any) -> None:  # noqa: ANN401 - of the types that the block declares
         """Take the inputs that are given, keep the others, and do the work of one call.
 
@@ -102,16 +137,18 @@ class Block:
         """
         if inputs:
             if not self.INPUTS.keys() >= inputs.keys():
-                self._unknown(inputs)
+                raise TypeError(self._unknown([name for name in inputs if name not in self.INPUTS]))
             self.__dict__.update(inputs)
         self._call()
 
     def _call(self) -> None:
         raise NotImplementedError
 
-    def _unknown(self, inputs: dict[str, Any]) -> None:
-        wrong = ", ".join(name for name in inputs if name not in self.INPUTS)
-        raise TypeError(f"{type(self).__name__} has no input {wrong}; it has {', '.join(self.INPUTS)}")
+    def _unknown(self, wrong: Iterable[str]) -> str:
+        """Return the text of an error about inputs that there are not."""
+        near = [close for name in wrong for close in difflib.get_close_matches(name, self.INPUTS, n=1)]
+        hint = f"did you mean {', '.join(near)}?" if near else f"it has {', '.join(self.INPUTS)}"
+        return f"{type(self).__name__} has no input {', '.join(wrong)}; {hint}"
 
     def _check_structures(self) -> None:
         """Take no other object for a structure: its missing fields would show only when they are asked for."""
@@ -143,8 +180,7 @@ class CommandBlock(Block):
         self._phase = Phase.IDLE
         self._edge = False
         self._command: Command[Any] | None = None
-        self._ledger = NO_TURNS
-        self._turn = 0
+        self._calls = Calls(NO_TURNS)
 
     def _cycle(self, *, execute: bool) -> None:
         """Do the work of one call; `execute` starts the command by its rising edge."""
@@ -155,7 +191,8 @@ class CommandBlock(Block):
                 self._begin()
         elif self._phase is not Phase.IDLE:
             self._enter(Phase.IDLE)
-        self._edge = execute
+        if execute is not self._edge:  # a busy block writes nothing that stays as it is
+            self._edge = execute
 
     def _issue(self) -> Command[Any]:
         """Give the command."""
@@ -169,22 +206,22 @@ class CommandBlock(Block):
             self._enter(Phase.ERROR, issued.error)
             return
         self._command = issued
-        self._turn = self._ledger.turn
         self._enter(Phase.BUSY)
         self.Active = issued.active
 
     def _watch(self) -> None:
         """Take up what has become of the command."""
-        command, last = self._command, self._turn
+        command, calls = self._command, self._calls
         assert command is not None
-        self._turn = turn = self._ledger.turn
+        last, calls.turn = calls.turn, calls.ledger.turn
         if command.busy:
-            self.Active = command.active
+            if command.active is not self.Active:
+                self.Active = command.active
         elif command.done:
             self._enter(Phase.DONE)
         elif command.error is not None:
             self._enter(Phase.ERROR, command.error)
-        elif turn > last + 1:
+        elif calls.turn > last + 1:
             self._enter(Phase.ERROR, ErrorId.NOT_CALLED_CYCLICALLY)
         else:
             self._enter(Phase.ABORTED)

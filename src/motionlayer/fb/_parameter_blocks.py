@@ -8,7 +8,8 @@ from motionlayer.command import Command, ErrorId
 from motionlayer.fb._axis_block import AxisBlock, EnableBlock
 from motionlayer.fb._axis_ref import AXIS_REF
 from motionlayer.fb._inputs import Input, boolean, integer, lreal
-from motionlayer.fb._parameters import UNKNOWN, find
+from motionlayer.fb._parameter_numbers import MC_AxisParameter
+from motionlayer.fb._parameters import PARAMETERS, UNKNOWN, find
 
 
 class E_ReadMode(enum.IntEnum):  # noqa: N801 - here and below, names of the interface
@@ -75,19 +76,40 @@ class WriteParameter(AxisBlock):
         if found is None or found[1].write is None:
             allowed = f"a parameter of kind {self.KIND.__name__} that can be written"
             return self._refuse("write_parameter", UNKNOWN, "ParameterNumber", allowed)
-        name, parameter = found
         given: object = self.Value
         if not isinstance(given, bool if self.KIND is bool else numbers.Real):
             raise TypeError(f"Value is {given!r}, a {type(given).__name__}; it must be a {self.KIND.__name__}")
-        assert parameter.write is not None
-        if self.PERSISTENT and ref.keep is None:
-            detail = f"{name}: the machine file names no persistent_file"
-            return ref.axis.refuse("write_parameter", ErrorId.FUNCTION_NOT_ALLOWED, detail)
-        command = parameter.write(ref, name, self.Value)
-        if not self.PERSISTENT or ref.keep is None or command.error is not None:
-            return command
-        trouble = ref.keep(ref.axis.name, name, self.KIND(self.Value))
-        return ref.axis.refuse("write_parameter", ErrorId.INTERNAL, trouble) if trouble else command
+        return write_parameter(ref, self.ParameterNumber, float(given), persistent=self.PERSISTENT)
+
+
+def write_parameter(ref: AXIS_REF, number: int, value: float, *, persistent: bool = False) -> Command[Any]:
+    """Write a parameter; it holds at once.
+
+    Args:
+        ref: the axis.
+        number: which parameter.
+        value: in its unit; 1.0 or 0.0 for one that is TRUE or FALSE.
+        persistent: keep it for the runs to come.
+
+    Returns:
+        A command that is done, or refused: number, value or place to keep it is not as it must be.
+    """
+    parameter = PARAMETERS.get(cast("MC_AxisParameter", number))
+    if parameter is None or parameter.write is None:
+        allowed = f"ParameterNumber = {number}, allowed: a parameter that can be written"
+        return ref.axis.refuse("write_parameter", UNKNOWN, allowed)
+    name = MC_AxisParameter(number).name
+    if parameter.kind is bool and value not in (0.0, 1.0):
+        return ref.axis.refuse("write_parameter", ErrorId.PARAMETER, f"{name} = {value}, allowed: 0.0, 1.0")
+    if persistent and ref.keep is None:
+        detail = f"{name}: the machine file names no persistent_file"
+        return ref.axis.refuse("write_parameter", ErrorId.FUNCTION_NOT_ALLOWED, detail)
+    new = parameter.kind(value)
+    command = parameter.write(ref, name, new)
+    if not persistent or ref.keep is None or command.error is not None:
+        return command
+    trouble = ref.keep(ref.axis.name, name, new)
+    return ref.axis.refuse("write_parameter", ErrorId.INTERNAL, trouble) if trouble else command
 
 
 class MC_WriteParameter(WriteParameter):  # noqa: N801

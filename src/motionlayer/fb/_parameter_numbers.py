@@ -1,4 +1,8 @@
-"""Numbers of the parameters of an axis (function-blocks 2.17), those for which this runtime has something."""
+"""Numbers of the parameters of an axis (motion-layer 2.9): all that the interface knows.
+
+Those for which this runtime has something are in `PARAMETERS`. Function-blocks 2.17 counts the numbers from an older
+list, without 1036; those here are the ones of the compiled interface. Files and traces hold names, never numbers.
+"""
 
 import enum
 
@@ -23,6 +27,7 @@ class MC_AxisParameter(enum.IntEnum):  # noqa: N801 - the name of the interface
     MaxDecelerationAppl = 15
     MaxJerkSystem = 16
     MaxJerkAppl = 17
+
     AxisId = 1000
     AxisVeloManSlow = 1001
     AxisVeloManFast = 1002
@@ -32,6 +37,7 @@ class MC_AxisParameter(enum.IntEnum):  # noqa: N801 - the name of the interface
     AxisJerk = 1006
     MaxJerk = 1007
     AxisMaxVelocity = 1008
+    AxisRapidTraverseVelocity = 1009
     AxisManualVelocityFast = 1010
     AxisManualVelocitySlow = 1011
     AxisCalibrationVelocityForward = 1012
@@ -55,13 +61,91 @@ class MC_AxisParameter(enum.IntEnum):  # noqa: N801 - the name of the interface
     AxisEnMotionMonitoring = 1030
     AxisMotionMonitoringWindow = 1031
     AxisMotionMonitoringTime = 1032
-    AxisEncoderModuloValue = 1044
-    AxisModuloToleranceWindow = 1045
-    AxisCycleTime = 1050
-    AxisMaximumAcceleration = 1057
-    AxisMaximumDeceleration = 1058
+    AxisDelayTimeVeloPosition = 1033
+    AxisEnLoopingDistance = 1034
+    AxisLoopingDistance = 1035
+    AxisEnBacklashCompensation = 1036
+    AxisBacklash = 1037
+    AxisEnDataPersistence = 1038
+    AxisRefVeloOnRefOutput = 1039
+    AxisOverrideType = 1040
+    AxisEncoderScalingFactor = 1041
+    AxisEncoderOffset = 1042
+    AxisEncoderDirectionInverse = 1043
+    AxisEncoderMask = 1044
+    AxisEncoderModuloValue = 1045
+    AxisModuloToleranceWindow = 1046
+    AxisEnablePosCorrection = 1047
+    AxisPosCorrectionFilterTime = 1048
+    AxisUnitInterpretation = 1049
+    AxisMotorDirectionInverse = 1050
+    AxisCycleTime = 1051
+    AxisFastStopSignalType = 1052
+    AxisFastAcc = 1053
+    AxisFastDec = 1054
+    AxisFastJerk = 1055
+    AxisEncoderScalingNumerator = 1056
+    AxisEncoderScalingDenominator = 1057
+    AxisMaximumAcceleration = 1058
+    AxisMaximumDeceleration = 1059
+    AxisVeloJumpFactor = 1060
+    AxisToleranceBallAuxAxis = 1061
+    AxisMaxPositionDeviationAuxAxis = 1062
+    AxisErrorPropagationMode = 1063
+    AxisErrorPropagationDelay = 1064
+    AxisCoupleSlaveToActualValues = 1065
+    AxisAllowMotionCmdToSlaveAxis = 1066
+    AxisAllowMotionCmdToExtSetAxis = 1067
+    AxisEncoderSubMask = 1068
+    AxisEncoderReferenceSystem = 1069
+    AxisEncoderPositionFilterPT1 = 1070
+    AxisEncoderVelocityFilterPT1 = 1071
+    AxisEncoderAccelerationFilterPT1 = 1072
+    AxisEncoderMode = 1073
+    AxisEncoderHomingInvDirCamSearch = 1074
+    AxisEncoderHomingInvDirSyncSearch = 1075
+    AxisEncoderHomingCalibValue = 1076
+    AxisEncoderReferenceMode = 1077
+    AxisRefVeloOutputRatio = 1078
+    AxisDrivePositionOutputScaling = 1079
+    AxisDriveVelocityOutputScaling = 1080
+    AxisDriveVelocityOutputDelay = 1081
+    AxisDriveMinOutputLimitation = 1082
+    AxisDriveMaxOutputLimitation = 1083
+    AxisTorqueInputScaling = 1084
+    AxisTorqueInputFilterPT1 = 1085
+    AxisTorqueDerivationInputFilterPT1 = 1086
+    AxisTorqueOutputScaling = 1087
+    AxisTorqueOutputDelay = 1088
+    AxisAccelerationOutputScaling = 1089
+    AxisAccelerationOutputDelay = 1090
+    AxisDrivePosOutputSmoothFilterType = 1091
+    AxisDrivePosOutputSmoothFilterTime = 1092
+    AxisDrivePosOutputSmoothFilterOrder = 1093
+    AxisDriveMode = 1094
+    AxisDriftCompensationOffset = 1095
+    AxisPositionControlKv = 1096
+    AxisCtrlVelocityPreCtrlWeight = 1097
+    AxisControllerMode = 1098
+    AxisCtrlAutoOffset = 1099
+    AxisCtrlAutoOffsetTimer = 1100
+    AxisCtrlAutoOffsetLimit = 1101
+    AxisSlaveCouplingControlKcp = 1102
+    AxisCtrlOutputLimit = 1103
+    AxisFadingAccleration = 1104
+    AxisUserDataIdxOffs = 1105
+
     AxisTargetPosition = 2000
     AxisRemainingTimeToGo = 2001
     AxisRemainingDistanceToGo = 2002
+    AxisMcSetPositionOffset = 2003
+
+    AxisGearRatio = 3000
+
     NcSafCycleTime = 4000
     NcSvbCycleTime = 4001
+
+    AxisEncoderMask64 = 5000
+    AxisEncoderSubMask64 = 5001
+
+    AxisMasPositionDeviationAuxAxis = 32000

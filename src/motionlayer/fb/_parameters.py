@@ -6,7 +6,7 @@ asking for a bool as a number or the other way round, or writing what can only b
 
 import math
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, cast
 
 from motionlayer.command import Command, ErrorId
 from motionlayer.fb._parameter_numbers import MC_AxisParameter
@@ -242,12 +242,8 @@ def find(number: int, kind: type) -> tuple[str, Parameter] | None:
     """
     if isinstance(number, bool) or not isinstance(number, int):
         raise TypeError(f"ParameterNumber is {number!r}; give a whole number or an MC_AxisParameter")
-    try:
-        name = MC_AxisParameter(number)
-    except ValueError:
-        return None
-    found = PARAMETERS[name]
-    return (name.name, found) if found.kind is kind else None
+    found = PARAMETERS.get(cast("MC_AxisParameter", number))
+    return (MC_AxisParameter(number).name, found) if found is not None and found.kind is kind else None
 
 
 UNKNOWN: Final = ErrorId.COMMAND_NOT_PERMITTED

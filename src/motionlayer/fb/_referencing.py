@@ -25,18 +25,28 @@ class E_EncoderReferenceMode(enum.IntEnum):  # noqa: N801 - here and below, name
     HARDWARESYNC = 2
     """The zero pulse behind it."""
     HARDWARELATCHPOS = 3
+    """The rising edge of the latch input behind it, caught by hardware."""
     HARDWARELATCHNEG = 4
+    """The falling one."""
     SOFTWARESYNC = 5
+    """The overflow of the encoder's count behind it."""
     SOFTDRIVELATCHPOS = 6
+    """The rising edge of the latch input behind it, as the program of the drive sees it."""
     SOFTDRIVELATCHNEG = 7
+    """The falling one."""
 
 
-METHODS: Final[Mapping[E_EncoderReferenceMode | None, nc.HomingMode | None]] = {
+METHODS: Final[Mapping[E_EncoderReferenceMode, nc.HomingMode | None]] = {
     E_EncoderReferenceMode.DEFAULT: None,
     E_EncoderReferenceMode.PLCCAM: nc.HomingMode.CAM,
     E_EncoderReferenceMode.HARDWARESYNC: nc.HomingMode.INDEX,
+    E_EncoderReferenceMode.HARDWARELATCHPOS: nc.HomingMode.LATCH_POSITIVE,
+    E_EncoderReferenceMode.HARDWARELATCHNEG: nc.HomingMode.LATCH_NEGATIVE,
+    E_EncoderReferenceMode.SOFTWARESYNC: nc.HomingMode.SOFTWARE_SYNC,
+    E_EncoderReferenceMode.SOFTDRIVELATCHPOS: nc.HomingMode.SOFT_LATCH_POSITIVE,
+    E_EncoderReferenceMode.SOFTDRIVELATCHNEG: nc.HomingMode.SOFT_LATCH_NEGATIVE,
 }
-"""How the axis homes in the reference modes that there are; the others need inputs that no drive here has."""
+"""How the axis homes in each reference mode; None: as the machine file says."""
 
 
 @dataclass(slots=True)
@@ -49,7 +59,7 @@ class ST_HomingOptions:  # noqa: N801
         SearchVelocity: towards the cam, u/s; 0 for that of the machine file.
         SyncDirection: off the cam, 1 or 3; 128 for that of the machine file, which turns with `SearchDirection`.
         SyncVelocity: off the cam, u/s; 0 for that of the machine file.
-        ReferenceMode: what the reference is, 0 to 2; the others are refused, 0x4418.
+        ReferenceMode: what the reference is, 0 to 7; one for which the drive has no signal is refused, 0x4418.
     """
 
     ClearPositionLag: bool = False
@@ -66,10 +76,14 @@ class ST_SetPositionOptions:  # noqa: N801
 
     Attributes:
         ClearPositionLag: the set position becomes the actual one.
+        SelectEncoderIndex: take the encoder `EncoderIndex`, not the one of the position loop.
+        EncoderIndex: 0; an axis has one encoder, and others are refused, 0x4013.
         ClearPositionOffset: go back to the coordinate of the last homing; `Position` is ignored.
     """
 
     ClearPositionLag: bool = False
+    SelectEncoderIndex: bool = False
+    EncoderIndex: int = 0
     ClearPositionOffset: bool = False
 
 
@@ -114,8 +128,8 @@ class MC_Home(AxisBlock):  # noqa: N801
         if search is None or sync is None:
             detail = f"SearchDirection = {options.SearchDirection}, SyncDirection = {options.SyncDirection}"
             return self._axis.refuse("home", ErrorId.MODE_INVALID, f"{detail}, allowed: 1, 3, 128")
-        if reference not in METHODS:
-            detail = f"ReferenceMode = {options.ReferenceMode}, allowed: 0 to 2"
+        if reference is None:
+            detail = f"ReferenceMode = {options.ReferenceMode}, allowed: 0 to 7"
             return self._axis.refuse("home", ErrorId.REFERENCE_MODE, detail)
         return self._axis.home(
             None if self.Position == DEFAULT_HOME_POSITION else self.Position,
@@ -135,7 +149,7 @@ class MC_SetPosition(AxisBlock):  # noqa: N801
 
     Position = lreal(0.0, "new actual position or, relative, what is added to it, u")
     Mode = boolean("TRUE: relative")
-    Options = structure(ST_SetPositionOptions, "position lag and offset")
+    Options = structure(ST_SetPositionOptions, "position lag, encoder, offset")
 
     def _issue(self) -> Command[Any]:
         options = self.Options
@@ -143,5 +157,6 @@ class MC_SetPosition(AxisBlock):  # noqa: N801
             self.Position,
             relative=bool(self.Mode),
             clear_lag=bool(options.ClearPositionLag),
+            encoder=options.EncoderIndex if options.SelectEncoderIndex else 0,
             clear_offset=bool(options.ClearPositionOffset),
         )

@@ -6,24 +6,30 @@ each with file, line, field, value and what is allowed. This is the only part th
 """
 
 from motionlayer.machine._description import Description
+from motionlayer.machine._drive_symbols import DriveFault
 from motionlayer.machine._errors import Finding, MachineError, OldName
+from motionlayer.machine._interface import interface
 from motionlayer.machine._load import check_description, load_description
 from motionlayer.machine._log_description import LogDescription
+from motionlayer.machine._loopback import Loopback
 from motionlayer.machine._machine import Machine
 from motionlayer.machine._machine_run import MachineRun
 from motionlayer.machine._programs import Loaded, ProgramError, Source, load_program, parse_source, sources_of
 from motionlayer.machine._realtime import REALTIME_PATIENCE, RealTime
 from motionlayer.machine._recorded import ReplayError
 from motionlayer.machine._replay import Replay, replay
+from motionlayer.machine._run_keywords import RealTimeKeywords, RunKeywords, SimulationKeywords
 from motionlayer.machine._schema import MachineFile, machine_schema, module_schema
 from motionlayer.machine._simulation import Simulation
 
 __all__ = [
     "REALTIME_PATIENCE",
     "Description",
+    "DriveFault",
     "Finding",
     "Loaded",
     "LogDescription",
+    "Loopback",
     "Machine",
     "MachineError",
     "MachineFile",
@@ -31,11 +37,15 @@ __all__ = [
     "OldName",
     "ProgramError",
     "RealTime",
+    "RealTimeKeywords",
     "Replay",
     "ReplayError",
+    "RunKeywords",
     "Simulation",
+    "SimulationKeywords",
     "Source",
     "check_description",
+    "interface",
     "load_description",
     "load_program",
     "machine_schema",

@@ -1,13 +1,14 @@
-"""The table of an axis and what it holds beside its drive: reference, modulo view, manual motion."""
+"""The table of an axis and what it holds beside its drive and its homing: modulo view, manual motion."""
 
 from collections.abc import Callable
-from typing import Any, Literal
+from typing import Any
 
-from pydantic import ConfigDict, Field, ValidationInfo, field_validator
+from pydantic import Field, ValidationInfo, field_validator
 from pydantic_core import PydanticCustomError
 
 from motionlayer.machine._drive_description import DriveDescription, MonitorDescription
 from motionlayer.machine._fields import Acceleration, Jerk, Position, Table, Text, Velocity, Width, Window
+from motionlayer.machine._home_description import HomeDescription
 
 
 def _same_as(field: str) -> Callable[[dict[str, Any]], Any]:
@@ -17,13 +18,6 @@ def _same_as(field: str) -> Callable[[dict[str, Any]], Any]:
 
 def _no_keys() -> Any:  # noqa: ANN401 - validated into the model of the field
     return {}
-
-
-def _velocity_is_optional(schema: dict[str, Any]) -> None:
-    """Correct the JSON schema: the axis adds the search velocity where the file leaves it out."""
-    schema["required"].remove("velocity")
-    if not schema["required"]:
-        del schema["required"]
 
 
 class ModuloDescription(Table):
@@ -50,73 +44,6 @@ class ManualDescription(Table):
     )
     forward: Window = Field(default=1.0, description="Step of inching in positive direction (u), > 0.")
     backward: Window = Field(default=1.0, description="Step of inching in negative direction (u), > 0.")
-
-
-class HomeDescription(Table):
-    """How an axis finds its reference: `[axis.X.home]`."""
-
-    model_config = ConfigDict(json_schema_extra=_velocity_is_optional)
-
-    mode: Literal["direct", "switch", "cam", "index"] = Field(
-        default="direct",
-        description='"direct": the present position becomes `position`; "switch": search the edge of the switch; '
-        '"cam": search it, turn, and take the edge at which the axis leaves it; "index": take the zero pulse behind.',
-    )
-    position: Position = Field(default=0.0, description="Reference position, of the edge or the pulse (u).")
-    switch: Position | None = Field(
-        default=None,
-        validate_default=True,
-        description='Drive position of the simulated switch (u); needed but for mode "direct". The switch is on '
-        'at or below it for direction "negative", at or above it for "positive".',
-        json_schema_extra={"x-unit": "u"},
-    )
-    direction: Literal["negative", "positive"] = Field(
-        default="negative", description="Direction of the search for the switch."
-    )
-    velocity: Velocity = Field(
-        description="Search velocity (u/s), > 0 and at most max_velocity; default: a tenth of max_velocity."
-    )
-
-    sync_velocity: Velocity | None = Field(
-        default=None,
-        description="Velocity off the cam (u/s), > 0 and at most max_velocity; default: that of the search.",
-    )
-    sync_direction: Literal["negative", "positive"] | None = Field(
-        default=None, description="Direction off the cam; default: the opposite of that of the search."
-    )
-    switch_width: Window | None = Field(
-        default=None,
-        description="Width of the simulated switch (u), > 0: of a cam. Default: on up to the end of the way.",
-    )
-    travel: Window | None = Field(
-        default=None,
-        description="Longest way of each search (u), > 0; behind it is an error. Default: twice the span of the "
-        "software limits; without both of them what takes ten minutes with `velocity`.",
-    )
-    pulse: Position = Field(default=0.0, description="Drive position of one of the simulated zero pulses (u).")
-    pulse_period: Window | None = Field(
-        default=None,
-        validate_default=True,
-        description='From one zero pulse to the next (u), > 0; needed for mode "index".',
-    )
-    pulse_distance: Width = Field(
-        default=0.0, description="Least distance of the zero pulse from the edge of the cam (u); nearer it is an error."
-    )
-
-    @field_validator("switch")
-    @classmethod
-    def _switch_for_mode(cls, switch: float | None, info: ValidationInfo) -> float | None:
-        mode = info.data.get("mode")
-        if switch is None and mode in ("switch", "cam", "index"):
-            raise PydanticCustomError("missing", "missing", {"hint": f'mode = "{mode}" needs it'})
-        return switch
-
-    @field_validator("pulse_period")
-    @classmethod
-    def _pulse_for_mode(cls, period: float | None, info: ValidationInfo) -> float | None:
-        if period is None and info.data.get("mode") == "index":
-            raise PydanticCustomError("missing", "missing", {"hint": 'mode = "index" needs it'})
-        return period
 
 
 class AxisDescription(Table):

@@ -4,10 +4,11 @@ import math
 from typing import NamedTuple
 
 from motionlayer.command import Ledger
-from motionlayer.drive import Fault, IdealDrives, ReferenceSwitch, Servo, ServoDrives, ZeroPulse, ZeroPulses
+from motionlayer.drive import Fault, IdealDrives, Latches, LatchSignals, ReferenceSwitch, Servo, ServoDrives
 from motionlayer.event import EventLog
 from motionlayer.machine._axis_description import AxisDescription, ModuloDescription
 from motionlayer.machine._description import Description
+from motionlayer.machine._home_description import LATCH_KEYS, HomeDescription
 from motionlayer.nc import (
     ROW_PIECES,
     Axis,
@@ -65,9 +66,9 @@ def build(description: Description, seed: int = 0) -> Parts:
     ]
     kinds = {entry.drive.kind for entry in entries.values()}
     stages = [one for one in stages if not one.name.endswith(" drives") or one.name.split()[0] in kinds]
-    pulses = _zero_pulses(store, description)
-    if pulses is not None:
-        stages.insert(len(stages) - 3, Stage(Step.INPUTS, "zero pulses", pulses.inputs))
+    latches = _latches(store, description)
+    if latches is not None:
+        stages.insert(len(stages) - 3, Stage(Step.INPUTS, "latches", latches.inputs))
     return Parts(store, ledger, events, axes, servos, stage, stages)
 
 
@@ -107,6 +108,7 @@ def _home_config(entry: AxisDescription) -> HomeConfig:
         sync_direction=-direction if home.sync_direction is None else SIGN[home.sync_direction],
         travel=_longest_search(entry) if home.travel is None else home.travel,
         pulse_distance=home.pulse_distance,
+        latches=tuple(HomingMode(mode) for mode, key in LATCH_KEYS.items() if getattr(home, key) is not None),
     )
 
 
@@ -117,14 +119,22 @@ def _longest_search(entry: AxisDescription) -> float:
     return 2.0 * (entry.software_limit_max - entry.software_limit_min)
 
 
-def _zero_pulses(store: Store, description: Description) -> ZeroPulses | None:
-    homes = [entry.home for entry in description.axis.values()]
-    pulses = {
-        column: ZeroPulse(home.pulse, home.pulse_period)
-        for column, home in enumerate(homes)
-        if home.pulse_period is not None
-    }
-    return ZeroPulses(store, pulses) if pulses else None
+def _latches(store: Store, description: Description) -> Latches | None:
+    signals = {column: _signals(entry.home) for column, entry in enumerate(description.axis.values())}
+    there = {column: one for column, one in signals.items() if one != LatchSignals()}
+    return Latches(store, there) if there else None
+
+
+def _signals(home: HomeDescription) -> LatchSignals:
+    """Return what the drive of an axis can latch."""
+    none = LatchSignals()
+    return LatchSignals(
+        pulse=none.pulse if home.pulse_period is None else home.pulse,
+        period=none.period if home.pulse_period is None else home.pulse_period,
+        turn=none.turn if home.turn is None else home.turn,
+        low=none.low if home.latch is None else home.latch,
+        high=none.high if home.latch is None or home.latch_width is None else home.latch + home.latch_width,
+    )
 
 
 def _columns(description: Description, kind: str) -> dict[int, tuple[str, AxisDescription]]:

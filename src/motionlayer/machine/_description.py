@@ -15,6 +15,7 @@ from motionlayer.machine._drive_description import (
     GroupDescription,
 )
 from motionlayer.machine._fields import Positive, Table, Text
+from motionlayer.machine._layer_description import ControlDescription, LayerDescription
 from motionlayer.machine._log_description import LogDescription
 from motionlayer.machine._realtime_description import RealTimeDescription
 from motionlayer.machine._task_description import TaskDescription
@@ -101,10 +102,10 @@ class Description(Table):
     )
     seed: int = Field(default=0, ge=0, le=2**63 - 1, description="Seed of everything random in a run.")
     axis: dict[str, AxisDescription] = Field(
-        min_length=1,
+        default_factory=dict,
         description="The axes by name, in the order they have everywhere. A name is an IEC 61131-3 "
-        "identifier, unique without regard to case.",
-        json_schema_extra={"propertyNames": {"pattern": IDENTIFIER}},
+        "identifier, unique without regard to case. At least one, but for a machine with `[control]`.",
+        json_schema_extra={"propertyNames": {"pattern": IDENTIFIER}, "minProperties": 1},
     )
     group: dict[str, GroupDescription] = Field(
         default_factory=dict, description="Groups of axes of which one in error concerns the others, by name."
@@ -128,6 +129,12 @@ class Description(Table):
     )
     realtime: RealTimeDescription = Field(
         default_factory=RealTimeDescription, description="What a real-time run asks of the computer."
+    )
+    layer: LayerDescription | None = Field(
+        default=None, description="The motion layer: Ctrl and State for all axes; none without this table."
+    )
+    control: ControlDescription | None = Field(
+        default=None, description="Ctrl and State of the motion layer of another machine; not beside `[layer]`."
     )
     log: LogDescription | None = Field(default=None, description="The message files; none without this table.")
     trace: TraceDescription = Field(default_factory=TraceDescription, description="What a trace records.")

@@ -51,6 +51,7 @@ class Logging:
         self._mailbox: Mailbox | None = None
         self._wall_clock = wall_clock_ns
         self._fixed = False
+        self._clock = LocalTime(0, self._cycle, _no_offset)
         description = machine.description.log if choice is True else choice
         if isinstance(description, LogDescription):
             self._open(description, machine.folder, lossless=lossless)
@@ -72,9 +73,17 @@ class Logging:
         """Why messages could not be written the last time that was so; "" if it never was."""
         return self._log.trouble if self._log is not None else ""
 
+    def time(self, tick: int) -> str:
+        """Return the local time of a tick as messages show it; without files that of a run which begins in 1970 (D40).
+
+        Time only goes on: ask for ticks in their order.
+        """
+        return self._clock.text(tick)
+
     def slip(self, ns: int) -> None:
         """Let the messages from now on be later: the run was held up by `ns`."""
         self._epoch += ns
+        self._clock.slip(ns)
         if self._log is not None:
             self._log.slip(ns)
 
@@ -100,7 +109,8 @@ class Logging:
         self._fixed = fixed is not None
         self._epoch = self._wall_clock() if fixed is None else fixed
         # A start that is given is the local time everywhere, so that files compare from computer to computer.
-        local = LocalTime(self._epoch, self._cycle, local_offset if fixed is None else _no_offset)
+        offset = local_offset if fixed is None else _no_offset
+        local, self._clock = (LocalTime(self._epoch, self._cycle, offset) for _ in range(2))
         folder = LogFolder(self.folder, port=description.port, size=description.size, on_trouble=self._tell)
         self._log = MessageLog(folder, local, self.levels, lossless=lossless)
 

@@ -14,17 +14,17 @@ import numpy as np
 from motionlayer.command import Command, all_of
 from motionlayer.drive import Fault
 from motionlayer.fb import AXIS_REF
-from motionlayer.machine._build import build
-from motionlayer.machine._log_description import LogDescription
+from motionlayer.machine._build import Parts, build
+from motionlayer.machine._layering import LayeredRun
 from motionlayer.machine._logging import Logging
 from motionlayer.machine._machine import Machine
 from motionlayer.machine._outside import EMERGENCY_STOP, INJECT, pack_fault, unpack_fault
 from motionlayer.machine._persistence import Persistence, load_kept
 from motionlayer.machine._programs import Loaded, load_program, sources_of
-from motionlayer.machine._resetting import ResettableRun
+from motionlayer.machine._run_keywords import USUAL, RunKeywords
 from motionlayer.machine._tracing import Tracing
 from motionlayer.record import End, Trace
-from motionlayer.runtime import LATE, PATIENCE, Lateness, Program, Stage, Step, TaskConfig
+from motionlayer.runtime import LATE, Lateness, Program, Stage, Step, TaskConfig
 
 if TYPE_CHECKING:
     from motionlayer.nc import Axis
@@ -42,27 +42,12 @@ class Axes(dict[str, V]):
         raise KeyError(f"no axis {name!r}; this machine has {', '.join(self)}{hint}")
 
 
-def require_machine(machine: object, kind: str) -> None:
-    """Refuse what is no machine.
-
-    Raises:
-        TypeError: it is something else; the message names what was called.
-    """
-    if not isinstance(machine, Machine):
-        raise TypeError(f"{kind}({machine!r}): give a machine, as in {kind}(Machine.load({machine!r}))")
-
-
-class MachineRun(ResettableRun):
-    """A run of a machine; what `Simulation` and `RealTime` have in common.
+class MachineRun(LayeredRun):
+    """A run of a machine; what `Simulation` and `RealTime` have in common, and raise when they are made.
 
     Args:
         machine: what runs.
-        seed: of everything random; that of the machine description where left out.
-        trace: True keeps the trace in memory, a path writes it to that file, False records nothing but the
-            hash, None not even that.
-        programs: started in tick 0, in order; those of the machine description where left out.
-        patience: wall time in seconds after which a program that does not yield ends the run.
-        log: the message files; True: as the machine description says, False: none.
+        keywords: what the run was told; `USUAL` holds for the rest.
         lossless: the cycle waits for the writers of trace and messages; otherwise what finds no room is left out.
 
     Raises:
@@ -72,63 +57,71 @@ class MachineRun(ResettableRun):
         TraceError: the trace file cannot be written.
     """
 
-    def __init__(
-        self,
-        machine: Machine,
-        *,
-        seed: int | None = None,
-        trace: bool | str | os.PathLike[str] | None = True,
-        programs: Sequence[Loaded] | None = None,
-        patience: float = PATIENCE,
-        log: LogDescription | bool = True,
-        lossless: bool = True,
-    ) -> None:
-        require_machine(machine, type(self).__name__)
+    def __init__(self, machine: Machine, keywords: RunKeywords, *, lossless: bool) -> None:
+        asked = USUAL | keywords
+        description, seed, programs = machine.description, asked["seed"], asked["programs"]
         loaded = [load_program(source) for source in sources_of(machine)] if programs is None else programs
         self.machine = machine
-        self.seed = self._first_seed = machine.description.seed if seed is None else seed
-        persistent = machine.description.persistent_file
-        kept = None if persistent is None else load_kept(machine.folder / persistent, machine.description.axis)
-        parts = build(machine.description, self.seed)
+        self.seed = self._first_seed = description.seed if seed is None else seed
+        persistent = description.persistent_file
+        kept = None if persistent is None else load_kept(machine.folder / persistent, description.axis)
+        parts = build(description, self.seed)
         self.axes: Mapping[str, Axis] = Axes(parts.axes)
         """The axes by name."""
         self._stage = parts.stage
         self._servos = parts.servos
         self._closed = False
-        self.log = Logging(machine, log, lossless=lossless)
+        self.log = Logging(machine, asked["log"], lossless=lossless)
         """The message files."""
-        self._tracing: Tracing | None = None
-        stages = list(parts.stages)
-        if trace is not None:
-            path = None if isinstance(trace, bool) else Path(trace)
-            try:
-                self._tracing = Tracing(
-                    machine, parts, self.seed, loaded, path, keep=trace is not False, lossless=lossless
-                )
-            except BaseException:
-                self.log.close()
-                raise
-            stages.append(Stage(Step.CAPTURE, "trace", self._tracing.capture))
-        else:
-            stages.append(Stage(Step.CAPTURE, "forget plans", lambda _tick: parts.store.forget_plans()))
+        self._tracing = self._recorder(parts, loaded, asked["trace"], lossless=lossless)
+        stages = [*parts.stages, self._capture(parts)]
         super().__init__(
             stages,
-            base_cycle_ns=machine.description.base_cycle_ns,
+            base_cycle_ns=description.base_cycle_ns,
             ledger=parts.ledger,
             events=parts.events,
             on_failure=self._abandon,
-            patience=patience,
-            tasks=[TaskConfig(name, **dict(entry)) for name, entry in machine.description.task.items()],
+            patience=asked["patience"],
+            tasks=[TaskConfig(name, **dict(entry)) for name, entry in description.task.items()],
         )
+        self._connect(parts)
+        self._persistence = None if kept is None else Persistence(kept, lambda: self.axis_refs, self.mailbox)
+        self._arrange([*stages, *self._add_layer(lambda: self.axis_refs, parts.stage)])
+        for program in loaded:
+            program.start(self)
+
+    def _recorder(
+        self,
+        parts: Parts,
+        programs: Sequence[Loaded],
+        trace: bool | str | os.PathLike[str] | None,
+        *,
+        lossless: bool,
+    ) -> Tracing | None:
+        """Return what records the run, if anything does; without it the message files are closed again."""
+        if trace is None:
+            return None
+        path = None if isinstance(trace, bool) else Path(trace)
+        try:
+            return Tracing(self.machine, parts, self.seed, programs, path, keep=trace is not False, lossless=lossless)
+        except BaseException:
+            self.log.close()
+            raise
+
+    def _capture(self, parts: Parts) -> Stage:
+        """Return the stage that looks at the setpoints, or only forgets what nobody has looked at."""
+        if self._tracing is not None:
+            return Stage(Step.CAPTURE, "trace", self._tracing.capture)
+        return Stage(Step.CAPTURE, "forget plans", lambda _tick: parts.store.forget_plans())
+
+    def _connect(self, parts: Parts) -> None:
+        """Let messages and trace follow the run, and the run take what comes from outside."""
         self.log.attach(parts.events, self.mailbox, parts.ledger)
         if self._tracing is not None:
             self._tracing.attach(self.mailbox)
         self.mailbox.register(LATE, Lateness(parts.ledger, parts.events, self._brake))
         self.mailbox.register(INJECT, self._injected)
         self.mailbox.register(EMERGENCY_STOP, self._emergency_stopped)
-        self._persistence = None if kept is None else Persistence(kept, lambda: self.axis_refs, self.mailbox)
-        for program in loaded:
-            program.start(self)
 
     @functools.cached_property
     def axis_refs(self) -> Mapping[str, AXIS_REF]:

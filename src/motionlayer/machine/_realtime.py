@@ -1,17 +1,15 @@
 """`RealTime`: a machine that runs in the time of a clock."""
 
 import contextlib
-import os
-from collections.abc import Callable, Coroutine, Iterator, Sequence
-from typing import Any, Final
+from collections.abc import Callable, Coroutine, Iterator
+from typing import Any, Final, Unpack
 
 from motionlayer.event import Event
-from motionlayer.machine._log_description import LogDescription
 from motionlayer.machine._machine import Machine
-from motionlayer.machine._machine_run import MachineRun, require_machine
-from motionlayer.machine._programs import Loaded
+from motionlayer.machine._machine_run import MachineRun
 from motionlayer.machine._rehearsal import rehearse
-from motionlayer.runtime import SYSTEM, Clock, Conditions, Meter, Pace, collect_young, late_input
+from motionlayer.machine._run_keywords import RealTimeKeywords, require_call
+from motionlayer.runtime import SYSTEM, Conditions, Meter, Pace, collect_young, late_input
 
 REALTIME_PATIENCE: Final = 1.0
 """Seconds after which a program that does not yield ends the run: shorter than in simulation, axes are moving."""
@@ -26,46 +24,33 @@ class RealTime(MachineRun):
 
     Args:
         machine: what runs; its table `[realtime]` says what is asked of the computer.
-        speed: seconds of the run in a second of the clock, 0.01 to 1000.
-        seed: of everything random; that of the machine description where left out.
-        trace: as in `Simulation`; a writer that does not keep up leaves a gap and never delays a tick.
-        programs: started in tick 0, in order; those of the machine description where left out.
-        patience: wall time in seconds after which a program that does not yield ends the run.
-        log: as in `Simulation`; messages that find no room are left out, and counted in the file.
-        clock: paces the run; that of the computer where left out.
+        **keywords: see `RealTimeKeywords`.
 
     Raises:
         LogError: the message files cannot be written.
+        MachineError: the file of persistent parameters means nothing.
         ProgramError: a program of the machine description cannot be loaded.
         TraceError: the trace file cannot be written.
+        TypeError: it is no machine, or there is no such keyword.
         ValueError: the speed is out of range.
     """
 
     _pace: Pace
     _meter: Meter
 
-    def __init__(
-        self,
-        machine: Machine,
-        *,
-        speed: float = 1.0,
-        seed: int | None = None,
-        trace: bool | str | os.PathLike[str] | None = True,
-        programs: Sequence[Loaded] | None = None,
-        patience: float = REALTIME_PATIENCE,
-        log: LogDescription | bool = True,
-        clock: Clock = SYSTEM,
-    ) -> None:
-        require_machine(machine, type(self).__name__)
+    def __init__(self, machine: Machine, **keywords: Unpack[RealTimeKeywords]) -> None:
+        require_call("RealTime", machine, RealTimeKeywords, keywords)
+        clock = keywords.get("clock", SYSTEM)
         pace = Pace(
             machine.description.base_cycle_ns,
             clock,
-            speed=speed,
+            speed=keywords.get("speed", 1.0),
             report=self._late,
             slipped=self._slipped,
             idle=self._idle,
         )
-        super().__init__(machine, seed=seed, trace=trace, programs=programs, patience=patience, log=log, lossless=False)
+        keywords.setdefault("patience", REALTIME_PATIENCE)
+        super().__init__(machine, keywords, lossless=False)
         rehearse(machine)
         wishes = machine.description.realtime
         self._conditions = Conditions(wishes.priority, lock_memory=wishes.lock_memory)

@@ -7,6 +7,7 @@ given every kind of command.
 
 import math
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Final
 
 from motionlayer.machine._machine import Machine
@@ -44,8 +45,14 @@ def _commands(axis: Axis) -> Iterator[Callable[[], object]]:
     yield lambda: axis.move_relative(_way(axis), buffer_mode=BufferMode.BLENDING_LOW)
     yield lambda: axis.move_absolute(axis.set_position)
     yield lambda: axis.jog(Direction.POSITIVE)
+    yield lambda: axis.define_position(0.0, relative=True)
     yield axis.halt
     yield axis.home
+    yield axis.halt
+    for method in axis.config.home.latches:
+        yield partial(axis.home, method=method)
+        yield axis.stop
+    yield lambda: axis.define_position(axis.set_position, clear_lag=True)
     yield axis.stop
     yield lambda: axis.move_velocity(velocity)
     yield axis.emergency_stop

@@ -13,6 +13,7 @@ from pathlib import Path
 from motionlayer.machine._data import number, table
 from motionlayer.machine._description import FORMATS, IDENTIFIER, SIGNALS
 from motionlayer.machine._drive_relations import drive_problems
+from motionlayer.machine._layer_relations import layer_problems
 from motionlayer.machine._problem import Problem, field_text, value_text
 from motionlayer.machine._program_file import function_problem
 from motionlayer.machine._task_relations import task_problems
@@ -41,6 +42,7 @@ def relation_problems(data: object, folder: Path) -> Iterator[Problem]:
     for name, axis in axes.items():
         yield from _search_velocity_problems(name, axis)
     yield from drive_problems(data)
+    yield from layer_problems(data)
     yield from task_problems(data)
     yield from _pattern_problems(table(data, "trace"), axes)
     for name, program in table(data, "program").items():

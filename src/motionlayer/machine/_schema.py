@@ -16,16 +16,15 @@ from motionlayer.machine._names import SECTIONS
 DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
 
 
-def _axes_may_be_modules(schema: dict[str, Any]) -> None:
-    """Correct the JSON schema: axes of modules are axes too."""
-    schema["required"].remove("axis")
-    schema["anyOf"] = [{"required": ["axis"]}, {"required": ["module"]}]
+def _axes_may_be_elsewhere(schema: dict[str, Any]) -> None:
+    """Complete the JSON schema: axes of modules are axes too, and a control side commands those of another machine."""
+    schema["anyOf"] = [{"required": [key]} for key in ("axis", "module", "control")]
 
 
 class MachineFile(Description):
     """A machine file as it is written; modules are part of the tables once it has been read."""
 
-    model_config = ConfigDict(json_schema_extra=_axes_may_be_modules)
+    model_config = ConfigDict(json_schema_extra=_axes_may_be_elsewhere)
 
     module: tuple[ModuleDescription, ...] = Field(
         default=(),

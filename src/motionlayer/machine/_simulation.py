@@ -1,14 +1,11 @@
 """`Simulation`: a machine that runs faster than real time, without hardware."""
 
-import os
 import time
-from collections.abc import Sequence
+from typing import Unpack
 
-from motionlayer.machine._log_description import LogDescription
 from motionlayer.machine._machine import Machine
 from motionlayer.machine._machine_run import MachineRun
-from motionlayer.machine._programs import Loaded
-from motionlayer.runtime import PATIENCE
+from motionlayer.machine._run_keywords import SimulationKeywords, require_call
 
 
 class Simulation(MachineRun):
@@ -16,31 +13,18 @@ class Simulation(MachineRun):
 
     Args:
         machine: what runs.
-        seed: of everything random; that of the machine description where left out.
-        trace: True keeps the trace in memory, a path writes it to that file, False records nothing but the
-            hash, None not even that.
-        programs: started in tick 0, in order; those of the machine description where left out.
-        patience: wall time in seconds after which a program that does not yield ends the run.
-        log: the message files; True: as the machine description says, False: none.
-        statistics: measure what the ticks cost, for `run.statistics`; nothing in the run depends on it.
+        **keywords: see `SimulationKeywords`.
 
     Raises:
         LogError: the message files cannot be written.
+        MachineError: the file of persistent parameters means nothing.
         ProgramError: a program of the machine description cannot be loaded.
         TraceError: the trace file cannot be written.
+        TypeError: it is no machine, or there is no such keyword.
     """
 
-    def __init__(
-        self,
-        machine: Machine,
-        *,
-        seed: int | None = None,
-        trace: bool | str | os.PathLike[str] | None = True,
-        programs: Sequence[Loaded] | None = None,
-        patience: float = PATIENCE,
-        log: LogDescription | bool = True,
-        statistics: bool = False,
-    ) -> None:
-        super().__init__(machine, seed=seed, trace=trace, programs=programs, patience=patience, log=log)
-        if statistics:
+    def __init__(self, machine: Machine, **keywords: Unpack[SimulationKeywords]) -> None:
+        require_call("Simulation", machine, SimulationKeywords, keywords)
+        super().__init__(machine, keywords, lossless=True)
+        if keywords.get("statistics", False):
             self._measure(time.perf_counter_ns)

@@ -58,6 +58,7 @@ class Tracing:
             signals,
             header(machine, seed, programs),
             path,
+            keep=keep,
             lossless=lossless,
             warn=self._warn,
         )
@@ -98,7 +99,12 @@ class Tracing:
 
     def mark(self) -> Mark | None:
         """Return a mark that the recording can go back to; None if it is written to a file."""
-        return self._recorder.mark() if self._recorder.in_memory else None
+        return self._recorder.mark() if self.in_memory else None
+
+    @property
+    def in_memory(self) -> bool:
+        """The recording can go back: it is not written to a file."""
+        return self._recorder.in_memory
 
     def require_memory(self) -> None:
         """Make sure that the recording can go back.

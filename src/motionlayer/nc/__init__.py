@@ -39,6 +39,7 @@ from motionlayer.nc._reaction import REACTIONS, ErrorGroup, GroupReaction, React
 from motionlayer.nc._stage import AxisStage
 from motionlayer.nc._states import TRANSITIONS, AxisEvent, AxisState
 from motionlayer.nc._stopping import stopping
+from motionlayer.nc._subdevices import axis_device
 
 __all__ = [
     "NCTOPLC_AXIS_REF",
@@ -79,5 +80,6 @@ __all__ = [
     "RampKeywords",
     "Reaction",
     "StateDWord",
+    "axis_device",
     "stopping",
 ]

@@ -60,7 +60,7 @@ class Axis(AxisPower, AxisPositioning, AxisEndless, AxisBraking, AxisReferencing
         command = AxisCommand(self, text.partition("(")[0])
         self._accept(command, text)
         self.config = config
-        self._table[[Q.MIN_P, Q.MAX_P], self._column] = config.limit_min, config.limit_max
+        self._values[Q.MIN_P], self._values[Q.MAX_P] = config.limit_min, config.limit_max
         if self._state in (AxisState.DISABLED, AxisState.STANDSTILL) and self._job is None:
             commanded = self._commanded
             self._set_plan(self.set_position)  # what rests does so within the new maxima
@@ -84,4 +84,4 @@ class Axis(AxisPower, AxisPositioning, AxisEndless, AxisBraking, AxisReferencing
         value = required("factor", factor)
         if not 0.0 <= value <= 1.0:
             raise ValueError(f"{self.name}: override {value}, allowed: 0 to 1 (1 is 100 %)")
-        self._table[Q.REQUEST, self._column] = round(value * STEPS) / STEPS
+        self._values[Q.REQUEST] = round(value * STEPS) / STEPS

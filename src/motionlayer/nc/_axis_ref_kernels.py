@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motionlayer._kernel import kernel
-from motionlayer.nc._axis_ref import NCTOPLC_AXIS_REF, OpModeDWord, StateDWord
+from motionlayer.nc._axis_ref import BUFFERED, HAS_JOB, NCTOPLC_AXIS_REF, OpModeDWord, StateDWord
 from motionlayer.store import Q, Status
 
 Floats = NDArray[np.float64]
@@ -76,8 +76,6 @@ CONSTANT: Final = int(StateDWord.ConstantVelocity)
 HOMING_BUSY: Final = int(StateDWord.HomingBusy)
 LOCKED: Final = int(StateDWord.MotionCommandsLocked)
 CONTINUOUS: Final = int(StateDWord.ContinuousMotion)
-HAS_JOB: Final = int(StateDWord.HasJob)
-BUFFERED: Final = int(StateDWord.CmdBuffered)
 LIMIT_MIN: Final = int(StateDWord.SoftLimitMinExceeded)
 LIMIT_MAX: Final = int(StateDWord.SoftLimitMaxExceeded)
 DRIVE_ERROR: Final = int(StateDWord.DriveDeviceError)

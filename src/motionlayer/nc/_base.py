@@ -8,7 +8,7 @@ from motionlayer.nc._axis_ref import HOMED, StateDWord
 from motionlayer.nc._config import AxisConfig
 from motionlayer.nc._motion import AxisCommand, Refusal
 from motionlayer.nc._states import NEED_POWER, TRANSITIONS, AxisEvent, AxisState
-from motionlayer.nc._subdevices import axis_device, subdevice_of
+from motionlayer.nc._subdevices import axis_device
 from motionlayer.store import Q, Store
 
 if TYPE_CHECKING:
@@ -36,14 +36,13 @@ class AxisBase:
         self._column = column
         self._device = axis_device(column)
         self._store = store
-        self._table = store.table
+        self._values = store.column(column)
         self._events = events
         self._state = AxisState.DISABLED
-        self._table[Q.OVERRIDE, column] = self._table[Q.REQUEST, column] = 1.0
-        self._table[Q.STATE, column] = self._state
-        self._table[Q.MIN_P, column] = config.limit_min
-        self._table[Q.MAX_P, column] = config.limit_max
-        self._table[Q.FLAGS, column] = StateDWord.PTPmode
+        self._values[Q.OVERRIDE] = self._values[Q.REQUEST] = 1.0
+        self._values[Q.STATE] = self._state
+        self._values[Q.MIN_P], self._values[Q.MAX_P] = config.limit_min, config.limit_max
+        self._values[Q.FLAGS] = StateDWord.PTPmode
 
     @property
     def state(self) -> AxisState:
@@ -58,12 +57,12 @@ class AxisBase:
     @error.setter
     def error(self, error: MotionError | None) -> None:
         self._error = error
-        self._table[Q.ERROR, self._column] = 0 if error is None else error.id
+        self._values[Q.ERROR] = 0 if error is None else error.id
 
     @property
     def homed(self) -> bool:
         """The position is that of a reference."""
-        return bool(int(self._table[Q.FLAGS, self._column]) & HOMED)
+        return bool(int(self._values[Q.FLAGS]) & HOMED)
 
     @homed.setter
     def homed(self, homed: bool) -> None:
@@ -72,42 +71,42 @@ class AxisBase:
     @property
     def set_position(self) -> float:
         """Setpoint valid at the present tick, u."""
-        return float(self._table[Q.SET_P, self._column])
+        return self._values[Q.SET_P]
 
     @property
     def set_velocity(self) -> float:
         """Setpoint valid at the present tick, u/s."""
-        return float(self._table[Q.SET_V, self._column])
+        return self._values[Q.SET_V]
 
     @property
     def set_acceleration(self) -> float:
         """Setpoint valid at the present tick, u/s²."""
-        return float(self._table[Q.SET_A, self._column])
+        return self._values[Q.SET_A]
 
     @property
     def actual_position(self) -> float:
         """What the drive reported in this tick, u."""
-        return float(self._table[Q.ACTUAL_P, self._column])
+        return self._values[Q.ACTUAL_P]
 
     @property
     def lag(self) -> float:
         """Set position a dead time ago less the actual position, u; exactly 0 for an ideal drive."""
-        return float(self._table[Q.LAG, self._column])
+        return self._values[Q.LAG]
 
     @property
     def override(self) -> float:
         """Factor on the velocity of every motion, 0 to 1."""
-        return float(self._table[Q.REQUEST, self._column])
+        return self._values[Q.REQUEST]
 
     @property
     def power_requested(self) -> bool:
         """The drive is asked to be on."""
-        return bool(self._table[Q.ENABLE, self._column])
+        return bool(self._values[Q.ENABLE])
 
     @property
     def enabled(self) -> bool:
         """The drive is ready."""
-        return bool(self._table[Q.READY, self._column])
+        return bool(self._values[Q.READY])
 
     def _step(self, event: AxisEvent) -> AxisState:
         """Return the next state for an event that cannot be refused."""
@@ -118,10 +117,9 @@ class AxisBase:
     def _next(self, event: AxisEvent, command: AxisCommand) -> AxisState | None:
         """Return the next state, or refuse the command."""
         state = TRANSITIONS[self._state][event]
-        asked = bool(self._table[Q.ENABLE, self._column])
-        if event in NEED_POWER and self._state is AxisState.STANDSTILL and not asked:
+        if event in NEED_POWER and self._state is AxisState.STANDSTILL and not self.power_requested:
             state = ErrorId.NOT_ENABLED  # the drive follows the request in the next tick
-        elif event in NEED_POWER and self._state is AxisState.DISABLED and asked:
+        elif event in NEED_POWER and self._state is AxisState.DISABLED and self.power_requested:
             state = ErrorId.NOT_READY_AT_START  # it has not followed yet
         if isinstance(state, AxisState):
             return state
@@ -130,21 +128,19 @@ class AxisBase:
 
     def _enter(self, state: AxisState) -> None:
         self._state = state
-        self._table[Q.STATE, self._column] = state
+        self._values[Q.STATE] = state
 
     def _flag(self, on: int = 0, *, off: int = 0) -> None:
         """Show bits of `StateDWord` that change with commands; plain integers, because every command does it."""
-        table, column = self._table, self._column
-        table[Q.FLAGS, column] = int(table[Q.FLAGS, column]) & ~off | on
+        self._values[Q.FLAGS] = int(self._values[Q.FLAGS]) & ~off | on
 
     def _tell(self, level: Level, kind: Kind, text: str, code: int = 0) -> None:
-        self._add(level, kind, text, code, 0, Subdevice.AxisCycle)
+        tick, part = self.ledger.tick, Subdevice.AxisCycle
+        self._events.add(Event(tick, level, kind, self.name, text, code, 0, self._device, part))
 
     def _tell_of(self, command: AxisCommand, level: Level, kind: Kind, text: str, code: int = 0) -> None:
-        self._add(level, kind, text, code, command.number, subdevice_of(command.name))
-
-    def _add(self, level: Level, kind: Kind, text: str, code: int, command: int, part: Subdevice) -> None:
-        self._events.add(Event(self.ledger.tick, level, kind, self.name, text, code, command, self._device, part))
+        tick, part = self.ledger.tick, command.part
+        self._events.add(Event(tick, level, kind, self.name, text, code, command.number, self._device, part))
 
     def _accept(self, command: AxisCommand, text: str) -> None:
         self._tell_of(command, Level.VERBOSE, Kind.ACCEPTED, text)

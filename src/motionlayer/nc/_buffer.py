@@ -14,7 +14,7 @@ from motionlayer.nc._axis_ref import BUFFERED
 from motionlayer.nc._config import AxisConfig, BufferMode
 from motionlayer.nc._follower import Buffering, Follower
 from motionlayer.nc._joints import joint_speeds
-from motionlayer.nc._limits import bad_target
+from motionlayer.nc._limits import bad_target, unplanned
 from motionlayer.nc._motion import DEFINITE, SCALED, AxisCommand, Job, JobKind, Refusal
 from motionlayer.nc._planning import AxisPlanning
 from motionlayer.nc._ways import Point, Way, arrival, scaled, through, way_of
@@ -111,7 +111,7 @@ class AxisBuffer(AxisPlanning):
             start = Point(end, 0.0, 0.0) if first is None else first.end
             second = way_of(self.config, job, start, factor)
         except PlanError as error:
-            return Refusal(ErrorId.INTERNAL, str(error))
+            return unplanned(job, self.config.unit, error)
         objection = self._objection(running, first, here) if first is not None else None
         objection = objection or self._objection(job, second, start.p)
         if objection is not None:
@@ -125,10 +125,9 @@ class AxisBuffer(AxisPlanning):
         Then it goes on as it is. A plan from the midst of a brake would be the same but for the rounding of its start,
         and there the time grows with the third root of a way: the last bit of a position costs microseconds.
         """
-        limits, table, column = scaled(running, self.override), self._table, self._column
-        if self._held or table[Q.END_TIME, column] == math.inf:
+        if self._held or self._values[Q.END_TIME] == math.inf:
             return False
-        if tuple(table[Q.MAX_V : Q.MAX_J + 1, column].tolist()) != limits:
+        if tuple(self._values[Q.MAX_V : Q.MAX_J + 1].tolist()) != scaled(running, self.override):
             return False
         if running.kind is JobKind.HALT or not follower.buffering.blends:
             return True
@@ -164,7 +163,7 @@ class AxisBuffer(AxisPlanning):
         if first is not None:
             self._adopt(running, first)
         self._store.append(self._column, follower.way.profile.pieces)
-        self._table[Q.JOB_KIND, self._column] = JOB_COMPOUND if running.kind in SCALED else JOB_BRAKE
+        self._values[Q.JOB_KIND] = JOB_COMPOUND if running.kind in SCALED else JOB_BRAKE
 
     def _hands_over(self, running: Job, follower: Follower) -> bool:
         """Tell whether the end of the setpoint is all that a follower waits for: not for the actual position too."""
@@ -222,7 +221,7 @@ class AxisBuffer(AxisPlanning):
         self._passed_already(job)
         self._adopt(job, self._planned(job))
         if follower is not None and job.kind in SCALED:
-            self._table[Q.JOB_KIND, self._column] = JOB_COMPOUND
+            self._values[Q.JOB_KIND] = JOB_COMPOUND
 
     def _passed_already(self, job: Job) -> None:
         """Let a job that has passed its target not go back to it."""

@@ -61,6 +61,16 @@ class HomingMode(enum.Enum):
     """The edge at which the axis leaves the cam again."""
     INDEX = "index"
     """The zero pulse of the encoder behind that edge."""
+    SOFTWARE_SYNC = "software_sync"
+    """The overflow of the encoder's count behind it."""
+    LATCH_POSITIVE = "latch_positive"
+    """The rising edge of the latch input behind it."""
+    LATCH_NEGATIVE = "latch_negative"
+    """The falling one."""
+    SOFT_LATCH_POSITIVE = "soft_latch_positive"
+    """The rising one, as the program of the drive sees it: up to a cycle later."""
+    SOFT_LATCH_NEGATIVE = "soft_latch_negative"
+    """The falling one, in the same way."""
 
 
 class Calibration(enum.IntEnum):
@@ -87,7 +97,8 @@ class HomeConfig(NamedTuple):
         sync_velocity: off the cam, u/s.
         sync_direction: off the cam, +1 or -1.
         travel: longest way of each search, u; infinite without a bound.
-        pulse_distance: least distance of the zero pulse from the edge of the cam, u.
+        pulse_distance: least distance of what is latched from the edge of the cam, u.
+        latches: the modes for which the drive has something to latch.
     """
 
     mode: HomingMode
@@ -98,6 +109,7 @@ class HomeConfig(NamedTuple):
     sync_direction: float
     travel: float = math.inf
     pulse_distance: float = 0.0
+    latches: tuple[HomingMode, ...] = ()
 
 
 class ManualConfig(NamedTuple):

@@ -55,7 +55,7 @@ class AxisCore(AxisProgress):
 
     def _drive_changed(self) -> None:
         """Take up a change of the drive's readiness, status or inputs."""
-        trouble = status_error(int(self._table[Q.STATUS, self._column]))
+        trouble = status_error(int(self._values[Q.STATUS]))
         if trouble is not None and self._state is not AxisState.ERRORSTOP:
             self.fault(*trouble)
         elif self.enabled and self._state is AxisState.DISABLED:
@@ -67,9 +67,9 @@ class AxisCore(AxisProgress):
             self.fault(ErrorId.NOT_ENABLED, "the drive lost its enable")
         elif not self.enabled:
             if self._state is AxisState.ERRORSTOP and not self._enabling:  # set and actual position part: decision 0013
-                self._table[Q.ENABLE, self._column] = 0.0
+                self._values[Q.ENABLE] = 0.0
             self._enter(self._step(AxisEvent.OFF))
-        if self._power is not None and bool(self._table[Q.ENABLE, self._column]) == self.enabled and not self._job:
+        if self._power is not None and bool(self._values[Q.ENABLE]) == self.enabled and not self._job:
             self._power_switched()
         if self._reset is not None and (self._job is None or self._state is not AxisState.ERRORSTOP):
             self._finish_reset()
@@ -84,7 +84,7 @@ class AxisCore(AxisProgress):
     @property
     def _missed(self) -> bool:
         """Power that is gone was needed."""
-        wanted = self._job is not None or bool(self._table[Q.ENABLE, self._column])
+        wanted = self._job is not None or bool(self._values[Q.ENABLE])
         return wanted and self._state not in {AxisState.ERRORSTOP, AxisState.DISABLED}
 
     def _monitored(self, seen: Seen) -> None:
@@ -178,13 +178,13 @@ class AxisCore(AxisProgress):
 
     def _request_power(self, *, on: bool) -> None:
         """Ask the drive; nothing to wait for where it is so already."""
-        self._table[Q.ENABLE, self._column] = float(on)
+        self._values[Q.ENABLE] = float(on)
         if self.enabled == on:
             self._power_switched()
 
     def _cut_power(self) -> None:
         """Take power away because of an error; who waits for it fails with that."""
-        self._table[Q.ENABLE, self._column] = 0.0
+        self._values[Q.ENABLE] = 0.0
         if self._power is not None and self._enabling and self.error is not None:
             power, self._power = self._power, None
             self._fail(power, self.error)
@@ -198,9 +198,12 @@ class AxisCore(AxisProgress):
             self._end(power)
 
     def _leave_homing(self) -> None:
-        """No homing is under way, whatever its phase was."""
+        """No homing is under way, whatever its phase was; nothing is to be latched for it."""
+        if self._homing is None:
+            return
         self._homing = None
-        self._table[Q.HOMING, self._column] = 0.0
+        self._values[Q.HOMING] = 0.0
+        self._values[Q.LATCH_ASKED] = 0.0
         if self._bound is not None:
             self._store.unwatch(self._bound)
             self._bound = None
@@ -209,7 +212,7 @@ class AxisCore(AxisProgress):
         """Nothing is being executed; an override has nothing to scale."""
         self._job = None
         self._flag(off=HAS_JOB | NEW_TARGET)
-        self._table[Q.JOB_KIND, self._column] = JOB_OTHER
+        self._values[Q.JOB_KIND] = JOB_OTHER
 
     def _at_rest(self, job: Job) -> None:
         self._drop_job()
@@ -225,8 +228,8 @@ class AxisCore(AxisProgress):
 
     def _finish_reset(self) -> None:
         """Leave the error, once the drive has left its own; the set position becomes the actual one."""
-        if self._table[Q.STATUS, self._column] != 0.0:
-            self._table[Q.DRIVE_RESET, self._column] = 1.0  # its answer brings us here again
+        if self._values[Q.STATUS] != 0.0:
+            self._values[Q.DRIVE_RESET] = 1.0  # its answer brings us here again
             return
         reset, self._reset = self._reset, None
         if self._state is AxisState.ERRORSTOP and self.actual_position != self.set_position:

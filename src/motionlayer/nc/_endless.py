@@ -66,7 +66,8 @@ class AxisEndless(AxisSubmission):
         """Move past a position with an end velocity, and on with it; the command stays active until another takes over.
 
         `command.in_end_velocity` tells when the position is passed and the velocity reached. Where the way is too
-        short for the end velocity the axis passes with the nearest it can reach, and gains the rest behind.
+        short for the end velocity the axis passes with the nearest it can reach, and gains the rest behind. With a
+        software limit behind, it passes no faster than it could brake before that.
 
         Args:
             position: to be passed, u.

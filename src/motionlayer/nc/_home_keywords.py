@@ -3,21 +3,23 @@
 from collections.abc import Mapping
 from typing import Any, Final, TypedDict
 
-from motionlayer.command import ErrorId
+from motionlayer.command import ErrorId, only_known
 from motionlayer.nc._config import AxisConfig, Direction, HomeConfig, HomingMode
-from motionlayer.nc._keywords import only_known
+from motionlayer.nc._homing import LATCHES
 from motionlayer.nc._limits import bad_place
 from motionlayer.nc._motion import Refusal, bad_speed, member, number
 
 SIGNS: Final = {Direction.POSITIVE: 1.0, Direction.NEGATIVE: -1.0}
 DIRECTIONS: Final = {sign: direction.name for direction, sign in SIGNS.items()}
+NEEDED: Final = {HomingMode.INDEX: "pulse_period", HomingMode.SOFTWARE_SYNC: "turn"}
+"""Key of the machine description that gives a drive what it latches; `latch` for the other modes that do."""
 
 
 class HomeKeywords(TypedDict, total=False):
     """How to find the reference; what is left out is as the machine description says.
 
     Attributes:
-        method: in which way, see `HomingMode`.
+        method: in which way, see `HomingMode`; one for which the drive has nothing to latch is refused.
         search_direction: POSITIVE or NEGATIVE; UNDEFINED is that of the description. The direction off the cam turns
             with it, unless it is given too.
         search_velocity: towards the switch or the cam, u/s.
@@ -58,6 +60,7 @@ def asked_home(config: AxisConfig, position: float | None, keywords: Mapping[str
     )
     checks = (
         bad_place("position", place, config.unit),
+        _bad_method(mode, home),
         _bad_direction("search_direction", search),
         _bad_direction("sync_direction", sync),
         bad_speed("search_velocity", fast, config.maximum.velocity, config.unit),
@@ -66,19 +69,27 @@ def asked_home(config: AxisConfig, position: float | None, keywords: Mapping[str
     refusal = next((one for one in checks if one is not None), None)
     if refusal is not None:
         return refusal
-    direction = SIGNS.get(search, home.direction)
-    return home._replace(
+    turned = _turned(home, SIGNS.get(search, home.direction))
+    return turned._replace(
         mode=mode,
         position=place,
         velocity=home.velocity if fast is None else fast,
-        direction=direction,
         sync_velocity=home.sync_velocity if slow is None else slow,
-        sync_direction=SIGNS.get(sync, home.sync_direction * home.direction * direction),
+        sync_direction=SIGNS.get(sync, turned.sync_direction),
     )
 
 
+def _turned(home: HomeConfig, direction: float) -> HomeConfig:
+    """Return a homing that searches in a direction; the direction off the cam turns with it."""
+    return home._replace(direction=direction, sync_direction=home.sync_direction * home.direction * direction)
+
+
 def told(home: HomeConfig, usual: HomeConfig) -> str:
-    """Return the text of a message: the reference position, and all that is not as the description says."""
+    """Return the text of a message: the reference position, and all that is not as the description says.
+
+    The direction off the cam is told where it is not the one that comes with the direction of the search.
+    """
+    plain = _turned(usual, home.direction)._replace(direction=usual.direction)
     values = {
         "method": home.mode.name,
         "search_direction": DIRECTIONS[home.direction],
@@ -90,9 +101,18 @@ def told(home: HomeConfig, usual: HomeConfig) -> str:
     unusual = [
         f"{name}={text}"
         for (name, text), field in zip(values.items(), default, strict=True)
-        if getattr(home, field) != getattr(usual, field)
+        if getattr(home, field) != getattr(plain, field)
     ]
     return f"home({', '.join([f'position={home.position}', *unusual])})"
+
+
+def _bad_method(mode: HomingMode, home: HomeConfig) -> Refusal | None:
+    if mode not in LATCHES or mode in home.latches:
+        return None
+    allowed = [one.name for one in HomingMode if one not in LATCHES or one in home.latches]
+    key = NEEDED.get(mode, "latch")
+    detail = f"method = {mode.name}, allowed: {', '.join(allowed)}; the drive has no signal for it: no home.{key}"
+    return Refusal(ErrorId.REFERENCE_MODE, detail)
 
 
 def _bad_direction(name: str, direction: Direction) -> Refusal | None:

@@ -3,7 +3,8 @@
 `direct`: the present position becomes the reference position. `switch`: search the edge of the reference switch, brake,
 and define the position by the distance travelled since the edge, which the drive latches; an axis that stands on the
 switch searches the same edge the other way round. `cam`: search the cam, come to rest on it, leave it again, slowly as
-a rule; its falling edge is the reference. `index`: the same, and the zero pulse behind the cam is the reference.
+a rule; its falling edge is the reference. The others: the same, and what the drive latches behind the cam is the
+reference; `LATCHES` tells what that is.
 
 A program may read the cam itself and tell its signal, which counts beside that of the drive. Nothing latches it: its
 edge is where the axis is in the tick in which it is told.
@@ -11,75 +12,25 @@ edge is where the axis is in the tick in which it is told.
 Every search has a longest way. What the table does not list leaves the homing where it is.
 """
 
-import enum
 import math
 from collections.abc import Callable
-from typing import Final, NamedTuple
+from typing import Final
 
 from motionlayer.command import ErrorId
-from motionlayer.nc._config import AxisConfig, HomingMode
+from motionlayer.nc._config import HomingMode
+from motionlayer.nc._homing_port import Cue, HomingPort, Step
 from motionlayer.nc._motion import AxisCommand, Moving
+from motionlayer.store import Latch
 
-
-class HomingPort(NamedTuple):
-    """What a homing sees and does of its axis; nobody else needs it.
-
-    Attributes:
-        config: of the axis, with the homing that was asked for.
-        place: returns the present setpoint, u.
-        actual: returns the present actual position, u.
-        switch: tells whether the reference switch is on.
-        edge: returns the position of its last edge, u.
-        pulse: returns the position of the zero pulse that came since the latch was armed, u; None while it waits.
-        arm: lets the drive latch the next zero pulse.
-        search: moves with a signed velocity, u/s.
-        brake: comes to rest.
-        show: shows the phase, `NcToPlc.HomingState`.
-        guard: has `Homing.too_far` called when the setpoint passes a position, u.
-        finish: redefines the position, u; the homing is over.
-        fault: puts the axis in error; the homing is over.
-    """
-
-    config: AxisConfig
-    place: Callable[[], float]
-    actual: Callable[[], float]
-    switch: Callable[[], bool]
-    edge: Callable[[], float]
-    pulse: Callable[[], float | None]
-    arm: Callable[[], None]
-    search: Callable[[float, AxisCommand], None]
-    brake: Callable[[AxisCommand], None]
-    show: Callable[[int], None]
-    guard: Callable[[float, "Homing"], None]
-    finish: Callable[[float, AxisCommand], None]
-    fault: Callable[[ErrorId, str], None]
-
-
-class Step(enum.IntEnum):
-    """Where the homing is, with the number of `HomingState`; the phases 1 and 3 take no time of their own."""
-
-    READY = 0
-    SEARCH = 2
-    ON_CAM = 3
-    LEAVE = 4
-    SYNC = 5
-    BRAKE = 6
-
-
-class Cue(enum.Enum):
-    """What takes it on."""
-
-    DIRECT = "begin without a switch"
-    SEARCH = "begin beside the switch or the cam"
-    ON_SWITCH = "begin on the switch"
-    ON_CAM = "begin on the cam"
-    EDGE = "the edge that is the reference"
-    ON = "the cam comes on"
-    OFF = "the cam goes off, and a zero pulse is to come"
-    LATCHED = "zero pulse"
-    REST = "at rest"
-    RELEASED = "at rest, and the cam is off again"
-    TOO_FAR = "the longest way of a search is over"
+LATCHES: Final = {
+    HomingMode.INDEX: Latch.ZERO_PULSE,
+    HomingMode.SOFTWARE_SYNC: Latch.OVERFLOW,
+    HomingMode.LATCH_POSITIVE: Latch.RISING,
+    HomingMode.LATCH_NEGATIVE: Latch.FALLING,
+    HomingMode.SOFT_LATCH_POSITIVE: Latch.SOFT_RISING,
+    HomingMode.SOFT_LATCH_NEGATIVE: Latch.SOFT_FALLING,
+}
+"""What the drive is asked to latch behind the cam."""
 
 
 class HomeCommand(AxisCommand):
@@ -131,13 +82,13 @@ class Homing:
         self.input_changed()
 
     def input_changed(self) -> None:
-        """Look for edges and for the zero pulse."""
+        """Look for edges and for what the drive has latched."""
         before, self._switch = self._switch, self._port.switch()
         if (self._cam or self._switch) != self._on:
             self._on = not self._on
             self._edge_place = self._port.edge() if self._switch != before else self._port.actual()
             self._take(self._edge())
-        if self._step is Step.SYNC and self._port.pulse() is not None:
+        if self._step is Step.SYNC and self._port.latched() is not None:
             self._take(Cue.LATCHED)
 
     def at_rest(self) -> None:
@@ -150,7 +101,7 @@ class Homing:
             return Cue.EDGE
         if self._on:
             return Cue.ON
-        return Cue.OFF if self._mode is HomingMode.INDEX else Cue.EDGE
+        return Cue.OFF if self._mode in LATCHES else Cue.EDGE
 
     def too_far(self, step: Step) -> None:
         """Take up that the search of a step has gone its longest way."""
@@ -198,13 +149,13 @@ class Homing:
         self._port.brake(self._command)
 
     def arm_latch(self) -> None:
-        """Go on, and let the next zero pulse be the reference."""
+        """Go on, and let the drive latch the reference."""
         self._port.arm()
         self._guard(self._port.config.home.sync_direction)
 
-    def brake_behind_pulse(self) -> None:
-        """Note the zero pulse and come to rest behind it; too near to the edge it may be another one next time."""
-        place, edge, least = self._port.pulse(), self._edge_place, self._port.config.home.pulse_distance
+    def brake_behind_latch(self) -> None:
+        """Note what was latched and come to rest behind it; too near to the edge it may be another one next time."""
+        place, edge, least = self._port.latched(), self._edge_place, self._port.config.home.pulse_distance
         assert place is not None
         if abs(place - edge) < least:
             self._port.fault(ErrorId.LATCH_TOO_CLOSE, f"{abs(place - edge)}, at least {least} {self._unit}")
@@ -228,8 +179,8 @@ class Homing:
         """Give up leaving the cam."""
         self._give_up(ErrorId.CAM_NOT_LEFT)
 
-    def pulse_not_found(self) -> None:
-        """Give up the search of the zero pulse."""
+    def nothing_latched(self) -> None:
+        """Give up the search of what is to be latched."""
         self._give_up(ErrorId.SYNC_PULSE_NOT_FOUND)
 
     def _give_up(self, error: ErrorId) -> None:
@@ -264,8 +215,8 @@ STEPS: Final[dict[tuple[Step, Cue], tuple[Step, Callable[[Homing], None]]]] = {
     (Step.LEAVE, Cue.EDGE): (Step.BRAKE, _H.brake_behind_edge),
     (Step.LEAVE, Cue.OFF): (Step.SYNC, _H.arm_latch),
     (Step.LEAVE, Cue.TOO_FAR): (Step.LEAVE, _H.cam_not_left),
-    (Step.SYNC, Cue.LATCHED): (Step.BRAKE, _H.brake_behind_pulse),
-    (Step.SYNC, Cue.TOO_FAR): (Step.SYNC, _H.pulse_not_found),
+    (Step.SYNC, Cue.LATCHED): (Step.BRAKE, _H.brake_behind_latch),
+    (Step.SYNC, Cue.TOO_FAR): (Step.SYNC, _H.nothing_latched),
     (Step.BRAKE, Cue.REST): (Step.READY, _H.define_from_place),
 }
 """Per step and cue: the next step, and what it does."""

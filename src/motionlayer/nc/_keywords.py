@@ -1,13 +1,13 @@
 """The keywords that motion commands share, declared once.
 
-A command names its own arguments and takes these as `**keywords: Unpack[...]`, so that editors and type checkers know
-every one of them, and a misspelt one is a TypeError that names those that there are.
+A command names its own arguments and takes these as `**keywords: Unpack[...]`; a misspelt one is a TypeError that names
+those that there are.
 """
 
-import difflib
 from collections.abc import Mapping
 from typing import Any, Final, NamedTuple, TypedDict
 
+from motionlayer.command import only_known
 from motionlayer.nc._config import BufferMode
 from motionlayer.nc._follower import AT_ONCE, Buffering
 from motionlayer.nc._motion import USUAL, Asked, member, number
@@ -103,20 +103,6 @@ class Keywords(NamedTuple):
 
 
 NONE_GIVEN: Final = Keywords(USUAL, AT_ONCE, None)
-
-
-def only_known(method: str, declared: type, given: Mapping[str, Any]) -> None:
-    """Take no keyword that a TypedDict does not declare.
-
-    Raises:
-        TypeError: there is no such keyword.
-    """
-    known = declared.__annotations__
-    for name in given:
-        if name not in known:
-            near = difflib.get_close_matches(name, known, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"it takes {', '.join(known)}"
-            raise TypeError(f"{method}() takes no keyword {name}; {hint}")
 
 
 def checked(method: str, declared: type, given: Mapping[str, Any]) -> Keywords:

@@ -1,4 +1,4 @@
-"""Software limits and feed enables: which commands they refuse.
+"""Software limits, feed enables and the ranges of planning: which commands they refuse.
 
 What a way is compared with is blurred by a share of the sizes that take part, and of nothing else: the same motion in
 µm, mm and m is judged alike.
@@ -9,8 +9,8 @@ from typing import Final
 
 from motionlayer.command import ErrorId
 from motionlayer.nc._config import AxisConfig
-from motionlayer.nc._motion import BOUNDED, SCALED, Job, JobKind, Refusal
-from motionlayer.profile import RANGES, Profile
+from motionlayer.nc._motion import BOUNDED, SCALED, TARGETED, Job, JobKind, Refusal
+from motionlayer.profile import RANGES, PlanError, Profile
 
 BLUR: Final = 1e-9
 """Share of positions and ways that counts as none; ten times what a plan may be off."""
@@ -19,8 +19,8 @@ BLUR: Final = 1e-9
 def bad_target(config: AxisConfig, job: Job, here: float) -> Refusal | None:
     """Tell why a target cannot be commanded from `here`, before anything is planned."""
     low, high, unit = config.limit_min, config.limit_max, config.unit
-    if job.kind in (JobKind.POSITION, JobKind.CONTINUOUS):
-        outside = bad_place("target", job.target, unit)
+    if job.kind in TARGETED:
+        outside = bad_place("target", job.target, unit) or _too_near(job.target, here, unit)
         if outside is not None:
             return outside
         if not low <= job.target <= high:
@@ -42,11 +42,65 @@ def bad_place(name: str, position: float, unit: str) -> Refusal | None:
     return None
 
 
+def _too_near(target: float, here: float, unit: str) -> Refusal | None:
+    """Tell why a target is not gone to: the cube of the time that it takes would underflow."""
+    way = abs(target - here)
+    if way >= RANGES.smallest or way == 0.0:
+        return None
+    return Refusal(ErrorId.DISTANCE_TOO_SHORT, f"way = {way}, allowed: 0, or from {RANGES.smallest} {unit} on")
+
+
+def too_long(job: Job, profile: Profile, factor: float) -> Refusal | None:
+    """Tell why a motion is not taken: before its end the clock would be too coarse.
+
+    What counts is the way to the target, of an endless motion that to its velocity: the cruise may last. An override
+    makes no way too long, because it may rise again.
+
+    Args:
+        job: what has been planned.
+        profile: its plan.
+        factor: override that it was planned with, > 0.
+    """
+    if profile.duration * factor <= RANGES.duration or job.kind not in SCALED:
+        return None
+    time = factor * _time_to_target(job, profile)
+    if time <= RANGES.duration:
+        return None
+    detail = f"it takes {time:.6g} s, allowed: up to {RANGES.duration:.0f} s, 104 days"
+    return Refusal(ErrorId.POSITIONING_TOO_LONG, detail)
+
+
+def _time_to_target(job: Job, profile: Profile) -> float:
+    """Return after how many seconds of its profile a job is where it was asked to be, or as fast."""
+    if job.kind is JobKind.CONTINUOUS:
+        return job.reach
+    if job.kind in BOUNDED:
+        return next(float(time) for time, _, _, pull, jerk in profile.pieces.tolist() if pull == 0.0 and jerk == 0.0)
+    return profile.duration
+
+
+def unplanned(job: Job, unit: str, error: PlanError) -> Refusal:
+    """Tell why a plan failed its check: an acceleration too weak beside the other limits, or a fault of ours.
+
+    What is planned for certain has V/A at most `RANGES.phases` times A/J, and V/D times D/J.
+    """
+    velocity, acceleration, deceleration, jerk = job.limits
+    weakest = min(acceleration, deceleration)
+    least = math.sqrt(velocity * jerk / RANGES.phases)
+    if weakest >= least:
+        return Refusal(ErrorId.INTERNAL, str(error))
+    name = "acceleration" if acceleration == weakest else "deceleration"
+    allowed = f"from {least:.6g} {unit}/s² on beside velocity = {velocity} and jerk = {jerk}"
+    return Refusal(ErrorId.ACCELERATION_TOO_SMALL, f"{name} = {weakest}, allowed: {allowed}")
+
+
 def overrun(config: AxisConfig, job: Job, profile: Profile, here: float) -> Refusal | None:
     """Tell whether the way from `here` to the target leaves the software limits."""
     low, high = config.limit_min, config.limit_max
+    if job.kind not in SCALED or (low <= profile.low and profile.high <= high):
+        return None
     blur = _blur(profile)
-    if job.kind not in SCALED or (profile.low >= min(low, here) - blur and profile.high <= max(high, here) + blur):
+    if profile.low >= min(low, here) - blur and profile.high <= max(high, here) + blur:
         return None
     reach = f"would reach {profile.low} to {profile.high}, allowed: {low} to {high} {config.unit}"
     return Refusal(ErrorId.OVERRUN, reach)

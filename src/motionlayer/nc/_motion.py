@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from typing import Final, NamedTuple, Protocol, TypeVar
 
 from motionlayer.command import Command, ErrorId, Ledger
+from motionlayer.event import Subdevice
 from motionlayer.nc._states import AxisEvent
+from motionlayer.nc._subdevices import SUBDEVICES
 from motionlayer.profile import RANGES, Limits
 
 
@@ -50,6 +52,9 @@ class JobKind(enum.Enum):
 SCALED: Final = frozenset({JobKind.POSITION, JobKind.VELOCITY, JobKind.CONTINUOUS, JobKind.JOG, JobKind.SEARCH})
 """Kinds that the override scales, and holds at 0 %."""
 
+TARGETED: Final = frozenset({JobKind.POSITION, JobKind.CONTINUOUS})
+"""Kinds with a target position."""
+
 BOUNDED: Final = frozenset({JobKind.VELOCITY, JobKind.CONTINUOUS, JobKind.JOG})
 """Endless kinds that come to rest on a software limit ahead."""
 
@@ -71,6 +76,7 @@ class AxisCommand(Command[None]):
     """A command of one axis.
 
     Attributes:
+        part: the function block that it is, for the messages about it.
         end_time: time of the run, in seconds, at which its setpoint came to the target; exact inside the cycle.
             None before.
     """
@@ -79,6 +85,7 @@ class AxisCommand(Command[None]):
         ledger = axis.ledger
         super().__init__(f"{axis.name}.{name}", number=ledger.number(), owner=ledger.issuer)
         self.axis = axis
+        self.part = SUBDEVICES.get(name, Subdevice.AxisControl)
         self.end_time: float | None = None
 
     @property
@@ -146,7 +153,7 @@ class Job:
         command: whom to tell; None for a brake that nobody waits for.
         event: what it means for the state machine when it begins; None for parts of what has begun already.
         end_speed: magnitude of the end velocity of CONTINUOUS, before the override.
-        reach: seconds since the profile began at which CONTINUOUS passes its target.
+        reach: seconds since the profile began at which CONTINUOUS passes its target; infinite while it is held at 0 %.
         passed: direction in which CONTINUOUS has passed its target, 0 before.
         monitored: its end is that of the actual position, where the axis has a window for it.
         arrived: the setpoint has come to its target, and something else is waited for: the actual position, a
@@ -160,7 +167,7 @@ class Job:
     command: AxisCommand | None
     event: AxisEvent | None = None
     end_speed: float = 0.0
-    reach: float = 0.0
+    reach: float = math.inf
     passed: float = 0.0
     monitored: bool = False
     arrived: bool = False
@@ -184,14 +191,12 @@ def number(name: str, value: object) -> float | None:
 
 
 def least_jerk(v: float, a: float, maximum: Limits) -> float:
-    """Return the least jerk that takes the acceleration back within the maxima of the axis.
+    """Return the least jerk that takes an acceleration, not 0, back within the maxima of the axis.
 
     With less, bringing `a` to zero would carry |v| beyond the maximum velocity, or, after a reversal, |a| beyond the
     maximum acceleration: along constant jerk a² changes by 2J per velocity. It never exceeds what got the axis into
     (v, a).
     """
-    if a == 0.0:
-        return 0.0
     room = maximum.velocity - math.copysign(v, v * a)
     needed = a * a / (2.0 * room) if room > 0.0 else maximum.jerk
     if v * a < 0.0:

@@ -7,16 +7,17 @@ from typing import TYPE_CHECKING, Unpack
 from motionlayer.command import ErrorId
 from motionlayer.nc._config import Calibration, HomeConfig, HomingMode
 from motionlayer.nc._home_keywords import HomeKeywords, asked_home, told
-from motionlayer.nc._homing import HomeCommand, Homing, HomingPort
+from motionlayer.nc._homing import LATCHES, HomeCommand, Homing
+from motionlayer.nc._homing_port import HomingPort
 from motionlayer.nc._limits import bad_place
-from motionlayer.nc._motion import AxisCommand, Job, JobKind, Refusal, member, number, required
+from motionlayer.nc._motion import TARGETED, AxisCommand, Job, JobKind, Refusal, member, number, required
 from motionlayer.nc._states import AxisEvent, AxisState
 from motionlayer.nc._submission import AxisSubmission
 from motionlayer.profile import stop_at
 from motionlayer.store import Q, Watch
 
 if TYPE_CHECKING:
-    from motionlayer.nc._homing import Step
+    from motionlayer.nc._homing_port import Step
 
 
 class AxisReferencing(AxisSubmission):
@@ -74,6 +75,7 @@ class AxisReferencing(AxisSubmission):
         relative: bool = False,
         clear_lag: bool = False,
         clear_offset: bool = False,
+        encoder: int = 0,
     ) -> AxisCommand:
         """Give the place where the axis is another position (MC_SetPosition); done at once.
 
@@ -84,14 +86,15 @@ class AxisReferencing(AxisSubmission):
             relative: shift the coordinate.
             clear_lag: the set position becomes the actual one; else it moves by the same amount, so that the lag stays.
             clear_offset: go back to the coordinate of the last homing; the position is ignored.
+            encoder: whose position; an axis has the encoder 0 alone.
 
         Raises:
-            TypeError: the position is not a number.
+            TypeError: the position is not a number, or the encoder not an integer.
         """
         command = AxisCommand(self, "define_position")
-        place = required("position", position)
+        place = 0.0 if clear_offset else required("position", position)
         shift = -self._offset if clear_offset else place if relative else place - self.actual_position
-        outside = bad_place("position", place, self.config.unit)
+        outside = _bad_encoder(encoder) or bad_place("position", place, self.config.unit)
         outside = outside or bad_place("resulting position", self.actual_position + shift, self.config.unit)
         if outside is not None:
             return self._refuse(command, outside)
@@ -131,7 +134,7 @@ class AxisReferencing(AxisSubmission):
     def _targeted(self) -> list[Job]:
         """Return the running and the buffered job, where they have a target position."""
         jobs = [self._job, self._follower.job if self._follower is not None else None]
-        return [one for one in jobs if one is not None and one.kind in (JobKind.POSITION, JobKind.CONTINUOUS)]
+        return [one for one in jobs if one is not None and one.kind in TARGETED]
 
     def _shift(self, way: float) -> None:
         """Shift the coordinate in motion, with all that was commanded in it."""
@@ -141,8 +144,8 @@ class AxisReferencing(AxisSubmission):
         if follower is not None and follower.buffering.position is not None:
             follower.buffering = follower.buffering._replace(position=follower.buffering.position + way)
         commanded = self._commanded
-        self._table[Q.SHIFT, self._column] += way
-        self._table[Q.ACTUAL_P, self._column] += way
+        self._values[Q.SHIFT] += way
+        self._values[Q.ACTUAL_P] += way
         self._store.shift(self._column, way)
         self._guarded(self._plan_anew)
         self._commanded = None if commanded is None else commanded + way
@@ -153,10 +156,10 @@ class AxisReferencing(AxisSubmission):
             config=self.config._replace(home=home),
             place=lambda: self.set_position,
             actual=lambda: self.actual_position,
-            switch=lambda: bool(self._table[Q.HOME_INPUT, self._column]),
-            edge=lambda: float(self._table[Q.HOME_LATCH, self._column] + self._table[Q.SHIFT, self._column]),
-            pulse=self._pulse,
-            arm=self._arm_latch,
+            switch=lambda: bool(self._values[Q.HOME_INPUT]),
+            edge=lambda: self._values[Q.HOME_LATCH] + self._values[Q.SHIFT],
+            latched=self._latched,
+            arm=lambda: self._arm_latch(LATCHES[home.mode]),
             search=self._search,
             brake=lambda command: self._replan(Job(JobKind.BRAKE, math.nan, self.config.default, command)),
             show=self._show_phase,
@@ -171,7 +174,7 @@ class AxisReferencing(AxisSubmission):
         self._replan(Job(JobKind.SEARCH, velocity, limits, command))
 
     def _show_phase(self, phase: int) -> None:
-        self._table[Q.HOMING, self._column] = phase
+        self._values[Q.HOMING] = phase
 
     def _guard(self, position: float, homing: Homing) -> None:
         """Tell a homing when the setpoint passes a position, if it is still in the same step then."""
@@ -196,12 +199,20 @@ class AxisReferencing(AxisSubmission):
         self._enter(self._step(AxisEvent.AT_REST))
         self._end(command)
 
-    def _pulse(self) -> float | None:
-        """Return the zero pulse since the latch was armed, in the present coordinate; None while it waits."""
-        if self._table[Q.INDEX_ARMED, self._column] != 0.0:
+    def _latched(self) -> float | None:
+        """Return what came since the latch was armed, in the present coordinate; None while it waits."""
+        if self._values[Q.LATCH_ASKED] != 0.0:
             return None
-        return float(self._table[Q.INDEX_LATCH, self._column] + self._table[Q.SHIFT, self._column])
+        return self._values[Q.LATCH_P] + self._values[Q.SHIFT]
 
-    def _arm_latch(self) -> None:
-        """Let the drive latch the next zero pulse."""
-        self._table[Q.INDEX_ARMED, self._column] = 1.0
+    def _arm_latch(self, asked: int) -> None:
+        """Let the drive latch the next signal of one kind, one of `Latch`."""
+        self._values[Q.LATCH_ASKED] = asked
+
+
+def _bad_encoder(encoder: int) -> Refusal | None:
+    if isinstance(encoder, bool) or not isinstance(encoder, int):
+        raise TypeError(f"encoder is {encoder!r}, a {type(encoder).__name__}; it must be an integer")
+    if encoder == 0:
+        return None
+    return Refusal(ErrorId.ENCODER_ID, f"encoder = {encoder}, allowed: 0; an axis has one encoder")

@@ -24,11 +24,6 @@ SUBDEVICES: Final = {
 """By the name of the method; every other command belongs to AxisControl."""
 
 
-def subdevice_of(command: str) -> Subdevice:
-    """Return the function block of a command by its name, `X.move_absolute`."""
-    return SUBDEVICES.get(command.rpartition(".")[2], Subdevice.AxisControl)
-
-
 def axis_device(column: int) -> int:
     """Return the device of the axis in a column: id 1 for the first one; 0 where the block has no id left (D47)."""
     return device_of(Device.Axis, column + 1 if column + 1 < BLOCK else 0)

@@ -78,14 +78,14 @@ class AxisSubmission(AxisCore):
 
     def _begin(self, job: Job, state: AxisState, text: str) -> None:
         """Let a motion replace the running one, or refuse it and change nothing."""
-        command = job.command
+        command, here = job.command, self._here
         assert command is not None
-        way = self._checked(job, self._here)
+        way = self._checked(job, here)
         if isinstance(way, Refusal):
             self._refuse(command, way)
             return
         self._accept(command, text)
-        if turns_back(job, self._here):
+        if turns_back(job, here, way.profile):
             text = f"{command.name}: cannot come to rest before {job.target} {self.config.unit}, and turns back"
             self._tell_of(command, Level.WARNING, Kind.MESSAGE, text, ErrorId.AS_GOOD_AS_POSSIBLE)
         self._drop_follower(by=command)
@@ -106,7 +106,8 @@ class AxisSubmission(AxisCore):
 
     def _lively(self, limits: Limits | None) -> Limits | None:
         """Raise a jerk with which the present acceleration would carry the axis beyond its maxima."""
-        if limits is None:
-            return None
-        least = least_jerk(self.set_velocity, self.set_acceleration, self.config.maximum)
+        pull = self.set_acceleration
+        if limits is None or pull == 0.0:
+            return limits
+        least = least_jerk(self.set_velocity, pull, self.config.maximum)
         return limits if least <= limits.jerk else limits._replace(jerk=least)

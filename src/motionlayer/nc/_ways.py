@@ -17,7 +17,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from motionlayer.nc._config import AxisConfig
-from motionlayer.nc._motion import BOUNDED, SCALED, Job, JobKind
+from motionlayer.nc._motion import BOUNDED, SCALED, TARGETED, Job, JobKind
 from motionlayer.profile import (
     Limits,
     Profile,
@@ -34,6 +34,10 @@ HALVINGS: Final = 48
 
 BLUR: Final = 1e-9
 """Relative: two places are one that are nearer than this share of the ways, and a slower motion is rest."""
+
+SAME_PLACE: Final = 1e-10
+ROUNDING: Final = 4e-15
+"""Shares of a way and of positions: no more than what rounding does to the state in the midst of a plan."""
 
 
 class Point(NamedTuple):
@@ -53,8 +57,7 @@ class Way(NamedTuple):
     @property
     def end(self) -> Point:
         """Where the last piece begins."""
-        _, p, v, a, _ = self.profile.pieces[-1].tolist()
-        return Point(p, v, a)
+        return Point(*self.profile.pieces[-1, 1:4].tolist())
 
 
 def scaled(job: Job, factor: float) -> Limits:
@@ -83,6 +86,7 @@ def way_of(config: AxisConfig, job: Job, start: Point, factor: float) -> Way:
     """
     limits = scaled(job, factor)
     if job.kind not in SCALED or factor == 0.0:
+        job.reach = math.inf
         return Way(plan_stop(*start, limits), limits)
     if job.kind is JobKind.POSITION:
         return Way(plan_position(*start, job.target, limits), limits)
@@ -108,11 +112,24 @@ def _continuous(config: AxisConfig, job: Job, start: Point, factor: float) -> Wa
     if job.passed != 0.0:
         return Way(_endless(config, start, job.passed * speed, slow).profile, highest)
     heading = arrival(start, job.target, limits)
-    first = through(start, job.target, heading, speed, limits)
+    first = through(start, job.target, heading, _brakeable(config, job.target, heading * speed, limits), limits)
     assert first is not None, (start, job)  # it arrives from where it can come to rest
     job.reach = first.profile.duration
     rest = _endless(config, first.end, heading * speed, slow)
     return Way(joined(first.profile, rest.profile), highest)
+
+
+def _brakeable(config: AxisConfig, place: float, velocity: float, limits: Limits) -> float:
+    """Return the speed of a velocity at a place, lowered to what comes to rest before the software limit behind it.
+
+    A brake is an acceleration from rest, backwards. It is asked for in every plan, since the override may have risen.
+    """
+    room, speed = abs(limit_ahead(config, velocity) - place), abs(velocity)
+    if math.isinf(room) or speed == 0.0:
+        return speed
+    backwards = limits._replace(velocity=speed, acceleration=limits.deceleration)
+    found = passable_velocity(0.0, 0.0, 0.0, room, speed, backwards)
+    return speed if found == speed else found * (1.0 - BLUR)
 
 
 def arrival(start: Point, place: float, limits: Limits) -> float:
@@ -123,11 +140,12 @@ def arrival(start: Point, place: float, limits: Limits) -> float:
     return math.copysign(1.0, place - rest)
 
 
-def turns_back(job: Job, start: Point) -> bool:
-    """Tell whether a job in motion comes to its target position only by turning back."""
-    if start.v == 0.0 or job.kind not in (JobKind.POSITION, JobKind.CONTINUOUS):
+def turns_back(job: Job, start: Point, profile: Profile) -> bool:
+    """Tell whether a job in motion comes to its target position only by turning back, as `profile` does."""
+    if start.v == 0.0 or job.kind not in TARGETED:
         return False
-    return arrival(start, job.target, job.limits) * start.v < 0.0
+    beyond = profile.high > job.target if start.v > 0.0 else profile.low < job.target
+    return beyond and arrival(start, job.target, job.limits) * start.v < 0.0
 
 
 def through(
@@ -158,11 +176,28 @@ def through(
     settled = heading * (start.v + 0.5 * start.a * abs(start.a) / limits.jerk)
     reached = _reachable(start, place, heading, speed, _at_least(limits, max(speed, settled)), highest)
     if reached is None:
-        return None
+        return _settling(start, place, heading, limits, highest)
     if reached == 0.0:
         return Way(plan_position(*start, place, limits), limits)
     raised = _at_least(limits, reached)
     return Way(plan_passing(*start, place, heading * reached, raised), raised)
+
+
+def _settling(start: Point, place: float, heading: float, limits: Limits, highest: float) -> Way | None:
+    """Take the acceleration back, and pass the place with what remains, where that is just as far; None elsewhere.
+
+    It is the rest of a way that did so. Only the rounding of its state decides whether a planner finds it.
+    """
+    velocity = start.v + 0.5 * start.a * abs(start.a) / limits.jerk
+    if not 0.0 < heading * velocity <= highest * (1.0 + BLUR):
+        return None
+    raised = _at_least(limits, abs(velocity))
+    profile = plan_velocity(*start, velocity, raised)
+    off = abs(float(profile.pieces[-1, 1]) - place)
+    if off > SAME_PLACE * abs(place - start.p) + ROUNDING * (abs(place) + abs(start.p)):
+        return None
+    profile.pieces[-1, 1] = place
+    return Way(profile, raised)
 
 
 def _at_least(limits: Limits, speed: float) -> Limits:
@@ -209,8 +244,12 @@ def _gained_late(start: Point, place: float, velocity: float, limits: Limits) ->
 
 
 def joined(first: Profile, second: Profile) -> Profile:
-    """Return one profile: the first up to its last piece, then the second, which begins there."""
+    """Return one profile: the first up to its last piece, then the second, which begins there.
+
+    Pieces of the second that are over before the clock of the first has moved are left out.
+    """
     later = second.pieces.copy()
     later[:, 0] += first.duration
     pieces = np.concatenate([first.pieces[:-1], later])
+    pieces = pieces[np.append(pieces[:-1, 0] < pieces[1:, 0], True)]
     return Profile(pieces, min(first.low, second.low), max(first.high, second.high))

@@ -26,8 +26,8 @@ MAX_STEPS: Final = 120
 """Most steps of the bracketing. Bisection alone would need 64 for a float64; it usually takes 6 to 15."""
 
 ROUNDING: Final = 1e-15
-"""Miss of the goal, relative to it, that the fastest way may have. Making up for it would take pieces whose times
-are as short as the square root of rounding."""
+"""Miss of the goal, relative to it or to the way until rest, that the fastest way may have. Making up for it would take
+pieces whose times are as short as the square root of rounding."""
 
 GOLDEN: Final = 0.6180339887498949
 VALLEY: Final = 1e-8
@@ -228,7 +228,8 @@ def to_point(
     """
     begin(out, v, a)
     direct = gain(scratch, v, a, w, u, acc, dec, jerk)
-    if goal == direct or abs(goal - direct) < ROUNDING * abs(goal):
+    size = max(abs(goal), abs(stop_displacement(v, a, dec, jerk)))  # who turns may come back to where it began
+    if goal == direct or abs(goal - direct) < ROUNDING * size:
         return to_velocity(out, u, acc, dec, jerk)
     s = 1.0 if goal > direct else -1.0
     fast, slow = s * vel, u

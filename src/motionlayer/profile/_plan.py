@@ -51,7 +51,7 @@ class Profile(NamedTuple):
     @property
     def duration(self) -> float:
         """Seconds until the last piece begins."""
-        return float(self.pieces[-1, 0])
+        return self.pieces.item(-1, 0)
 
 
 _out: Final = np.zeros((MAX_PIECES, 5))
@@ -198,8 +198,9 @@ def stop_at(p: float, v: float, a: float, limits: Limits) -> float:
     Raises:
         PlanError: a limit or a part of the state is no finite number, or the place is none.
     """
-    if is_limit(limits.deceleration) and is_limit(limits.jerk) and math.isfinite(0.5 * a * abs(a) / limits.jerk):
-        place = stop_position(p, v, a, limits.deceleration, limits.jerk)
+    _, _, dec, jerk = limits
+    if 0.0 < dec < math.inf and 0.0 < jerk < math.inf and math.isfinite(0.5 * a * abs(a) / jerk):
+        place = stop_position(p, v, a, dec, jerk)
         if math.isfinite(place):
             return place
     raise PlanError(f"a limit, the state or the place is no finite number: stop_at({p!r}, {v!r}, {a!r}, {limits!r})")

@@ -24,9 +24,10 @@ class Recorder:
 
     Args:
         table: float64, C-contiguous, never moved while recording; the hash is over its first four rows.
-        signals: what to record; without signals and without a path nothing is kept but the hash.
+        signals: what to record; without signals, without a path and without `keep` nothing is kept but the hash.
         header: JSON values of the trace header; `base_cycle_ns` is needed, `signals` is filled in here.
         path: the file, None for memory.
+        keep: keep plans, events and inputs in memory also where there are no signals.
         hashing: whether the hash of the run is taken.
         block_ticks: ticks per block, None for a fitting number.
         lossless: True waits for the thread where it does not keep up, and raises what it cannot write. False, for
@@ -48,6 +49,7 @@ class Recorder:
         header: dict[str, Any],
         path: Path | None = None,
         *,
+        keep: bool = False,
         hashing: bool = True,
         block_ticks: int | None = None,
         lossless: bool = True,
@@ -60,7 +62,7 @@ class Recorder:
         self._lossless = lossless
         self._warn = warn
         self._told = {"gap": lossless, "end": lossless}
-        self._writer = _writer(signals, header, path)
+        self._writer = _writer(signals, header, path) if keep or signals or path is not None else None
         self._sink = Sink(self._writer, hashing=hashing)
         hashed = HASHED_ROWS * table.shape[1] if hashing else 0
         self._capacity = block_ticks or fitting(len(signals) + hashed, header["base_cycle_ns"], lossless=lossless)
@@ -249,8 +251,6 @@ class Recorder:
             raise ValueError("the recorder is closed")
 
 
-def _writer(signals: Sequence[Signal], header: dict[str, Any], path: Path | None) -> TraceWriter | None:
-    if path is None and not signals:
-        return None
+def _writer(signals: Sequence[Signal], header: dict[str, Any], path: Path | None) -> TraceWriter:
     described = [{"name": signal.name, "unit": signal.unit, "resolution": signal.resolution} for signal in signals]
     return TraceWriter(path, {**header, "signals": described})

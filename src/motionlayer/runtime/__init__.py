@@ -19,6 +19,7 @@ from motionlayer.runtime._mailbox import Mailbox, MailboxFull, Receipt
 from motionlayer.runtime._meter import Meter
 from motionlayer.runtime._pace import BRAKE, CATCH_UP, FASTEST, SLOWEST, Pace
 from motionlayer.runtime._program import Cancelled, Program
+from motionlayer.runtime._published import Published
 from motionlayer.runtime._run import Run
 from motionlayer.runtime._snapshot import Snapshot
 from motionlayer.runtime._statistics import Histogram, Spread, Statistics
@@ -54,6 +55,7 @@ __all__ = [
     "Pace",
     "Program",
     "ProgramStuck",
+    "Published",
     "Receipt",
     "Run",
     "Snapshot",

@@ -4,17 +4,8 @@ Inside, an area is plain memory that changes only in the step of its owner: a pr
 claimed, step INPUTS those that belong to the outside. The programs of a tick see one another's writes at once; nothing
 runs beside them, so they never see half a write.
 
-Outside, every area is read as it was at the end of the last finished tick. Step OUTPUTS copies all areas into one half
-of a double buffer, in turns, and a reader takes the half that was finished last:
-
-    writer of publication n              reader
-    begun = n                            n = done
-    copy all areas into half n mod 2     copy the area out of half n mod 2
-    done = n                             valid if begun ≤ n + 1, else again
-
-Half n mod 2 is written again by publication n + 2 only, which first sets `begun` to n + 2; so a copy that was disturbed
-is known, and is one that took longer than a whole tick. Nobody waits for anybody. Counters and halves lie in one block
-of bytes and need no lock: it may as well be memory shared with another process.
+Outside, every area is read as it was at the end of the last finished tick: step OUTPUTS copies all areas into a double
+buffer (`Published`), from which any thread reads without a wait.
 """
 
 from collections.abc import Iterator, Mapping
@@ -22,12 +13,10 @@ from typing import Final
 
 from motionlayer.command import Command, Ledger
 from motionlayer.runtime._mailbox import Mailbox, Receipt
+from motionlayer.runtime._published import Published
 
 MAX_SIZE: Final = 2**30
 """Largest size of an area in bytes."""
-
-_DONE, _BEGUN, _TICK = 0, 1, 2  # places of the header: two counters, and the tick of each half
-_HEADER: Final = 4 * 8
 
 
 class Area:
@@ -40,6 +29,7 @@ class Area:
         view: its bytes as programs see them now, read-only; for the cycle thread.
         memory: the same to be written, for its owner and step INPUTS.
         place: where it lies among all areas.
+        written: it belongs to the outside, which has written it.
     """
 
     def __init__(self, areas: "Areas", name: str, size: int, start: int, *, outside: bool) -> None:
@@ -50,6 +40,7 @@ class Area:
         self.place = slice(start, start + size)
         self.memory = memoryview(bytearray(size))
         self.view = self.memory.toreadonly()
+        self.written = False
         self._claimed = False
         self._owner: Command[object] | None = None
 
@@ -100,6 +91,7 @@ class Area:
         """Take in what was posted; the handler of the channel."""
         self._check(data)
         self.memory[:] = data
+        self.written = True
 
     def _check(self, data: bytes | bytearray | memoryview) -> None:
         if len(data) != self.size:
@@ -166,28 +158,14 @@ class Areas(Mapping[str, Area]):
         """Let the outside see this tick; a stage of step OUTPUTS."""
         if not self._size:
             return
-        header = self._header
-        count = header[_BEGUN] + 1
-        half = count & 1
-        header[_BEGUN] = count
-        header[_TICK + half] = tick
-        image = self._halves[half]
+        image = self._published.begin(tick)
         for area in self._areas.values():
             image[area.place] = area.memory
-        header[_DONE] = count
+        self._published.finish()
 
     def read(self, where: slice) -> tuple[int, bytes]:
         """Return the last published tick and a slice of what was published."""
-        header, halves = self._header, self._halves
-        while True:
-            count = header[_DONE]
-            half = count & 1
-            tick, data = header[_TICK + half], bytes(halves[half][where])
-            if header[_BEGUN] <= count + 1:
-                return tick, data
+        return self._published.read(where)
 
     def _allocate(self) -> None:
-        block = memoryview(bytearray(_HEADER + 2 * self._size))
-        self._header = block[:_HEADER].cast("q")
-        self._header[_TICK] = self._header[_TICK + 1] = -1
-        self._halves = block[_HEADER : _HEADER + self._size], block[_HEADER + self._size :]
+        self._published = Published(memoryview(bytearray(Published.size_of(self._size))))

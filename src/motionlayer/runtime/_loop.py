@@ -70,16 +70,7 @@ class Loop:
         self.tasks = Tasks(tasks, base_cycle_ns, SYSTEM.now_ns, self.mailbox, ledger, events)
         """The tasks by name: what calls cyclic programs, and what that costs."""
         self._scheduler = Scheduler(ledger, events, self.tasks, on_failure, self._left_alone)
-        self._stages = in_order(
-            [
-                Stage(Step.INPUTS, "mailbox", self.mailbox.apply),
-                Stage(Step.PROGRAMS, "programs", self._scheduler.run),
-                *stages,
-                Stage(Step.OUTPUTS, "areas", self.areas.publish),
-                Stage(Step.OUTPUTS, "receipts", self.mailbox.acknowledge),
-            ]
-        )
-        self._calls = tuple(stage.run for stage in self._stages)
+        self._arrange(stages)
         self.ending = "closed"
         """How the last `run()` ended, in words."""
         self._end = math.inf
@@ -90,6 +81,19 @@ class Loop:
         self._pace: Pace | None = None
         self._meter: Meter | None = None
 
+    def _arrange(self, stages: Sequence[Stage]) -> None:
+        """Let a tick do what these stages do, and what it does in every run; before the first tick."""
+        self._stages = in_order(
+            [
+                Stage(Step.INPUTS, "mailbox", self.mailbox.apply),
+                Stage(Step.PROGRAMS, "programs", self._scheduler.run),
+                *stages,
+                Stage(Step.OUTPUTS, "areas", self.areas.publish),
+                Stage(Step.OUTPUTS, "receipts", self.mailbox.acknowledge),
+            ]
+        )
+        self._calls = tuple(stage.run for stage in self._stages)
+
     @property
     def tick(self) -> int:
         """Number of ticks that have begun; the present one inside a program."""
@@ -99,6 +103,11 @@ class Loop:
     def time(self) -> float:
         """Time of the run in seconds: tick times base cycle."""
         return self._ledger.tick * self.base_cycle_ns * 1e-9
+
+    @property
+    def idle(self) -> bool:
+        """No program is left, and no axis brakes: `run()` would return."""
+        return self._over()
 
     @property
     def ticking(self) -> bool:
@@ -206,7 +215,7 @@ class Loop:
         self.mailbox.cycle_thread = get_ident()
         try:
             self.mailbox.apply(self.tick)
-            self.areas.publish(self.tick - 1)
+            self._show(self.tick - 1)
             self.mailbox.acknowledge(self.tick)
         except Exception as error:
             raise self._fault(error) from error
@@ -214,6 +223,14 @@ class Loop:
             self.mailbox.cycle_thread = None
         if self._gate.wait():
             self._set_off()
+
+    def _show(self, tick: int) -> None:
+        """Let the outside see what has changed while no tick ran; for who publishes more than areas.
+
+        Args:
+            tick: the last one that has ended.
+        """
+        self.areas.publish(tick)
 
     def _measure(self, now_ns: Callable[[], int]) -> Meter:
         """Measure from now on what the stages cost, with a clock that counts nanoseconds."""

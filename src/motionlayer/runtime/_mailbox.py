@@ -21,7 +21,8 @@ from motionlayer.event import Device, Event, EventLog, Input, Kind, Level
 CAPACITY: Final = 100_000
 """Inputs that may wait for the next tick."""
 
-Handler = Callable[[bytes], None]
+Handler = Callable[[bytes], bytes | None]
+"""Applies an input in the cycle thread; what it returns is the result of the receipt."""
 
 
 class MailboxFull(RuntimeError):  # noqa: N818 - the state, as a user would say it
@@ -34,14 +35,16 @@ class Receipt:
     Attributes:
         channel: where it was posted.
         settled: it has been applied and published, or its end is known to be an error.
+        result: what the handler of the channel gave back; empty before, and where it gave nothing.
     """
 
-    __slots__ = ("_error", "_latch", "_mailbox", "_tick", "channel", "settled")
+    __slots__ = ("_error", "_latch", "_mailbox", "_tick", "channel", "result", "settled")
 
     def __init__(self, channel: str, mailbox: "Mailbox") -> None:
         self.channel = channel
         self._mailbox = mailbox
         self.settled = False
+        self.result = b""
         self._tick = -1
         self._error: Exception | None = None
         self._latch = threading.Lock()  # locked until settled; a third of the cost of threading.Event
@@ -226,7 +229,7 @@ class Mailbox:
         self._next_fed = fed[0].tick if fed else -1
         for _ in range(len(self._waiting)):  # what comes meanwhile is for the next tick
             channel, payload, receipt = self._waiting.popleft()
-            error = None if self.deaf else self._handle(Input(tick, channel, payload))
+            error = None if self.deaf else self._handle(Input(tick, channel, payload), receipt)
             self._applied.append((receipt, error))
 
     def acknowledge(self, tick: int) -> None:
@@ -244,16 +247,18 @@ class Mailbox:
             receipt.settle(-1, error or _run_ended(receipt.channel))
         self._refuse_waiting()
 
-    def _handle(self, one: Input) -> Exception | None:
+    def _handle(self, one: Input, receipt: Receipt | None = None) -> Exception | None:
         for listener in self._listeners:
             listener(one)
         try:
-            self._handlers[one.channel](one.payload)
+            result = self._handlers[one.channel](one.payload)
         except Exception as error:  # noqa: BLE001 - a fault of a client never stops the cycle
             text = f"input of {len(one.payload)} bytes refused: {type(error).__name__}: {error}"
             source, main = f"channel {one.channel}", Device.Device_Main
             self._events.add(Event(one.tick, Level.WARNING, Kind.MESSAGE, source, text, device=main))
             return error
+        if receipt is not None and result is not None:
+            receipt.result = result
         return None
 
     def _refuse_waiting(self) -> None:

@@ -129,7 +129,7 @@ class SteppedRun(Run):
         self.mailbox.feed_again(snapshot.fed)
         self._broken = False
         self._put_back(snapshot.kept)
-        self.areas.publish(self.tick - 1)
+        self._show(self.tick - 1)
 
     def _roots(self) -> Iterator[tuple[str, object]]:
         """Yield where all that changes can be found; what belongs to a program comes first, to be named after it."""

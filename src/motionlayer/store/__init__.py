@@ -30,6 +30,7 @@ from motionlayer.store._layout import (
     JOB_POSITION,
     JOB_VELOCITY,
     PIECE_FIELDS,
+    Latch,
     Q,
     Status,
 )
@@ -43,6 +44,7 @@ __all__ = [
     "JOB_VELOCITY",
     "PIECE_FIELDS",
     "Ended",
+    "Latch",
     "Q",
     "Status",
     "Store",

@@ -57,9 +57,9 @@ class Q:
     ERROR: Final = 36
     HOMING: Final = 37
     WINDOWS: Final = 38
-    # zero pulse of the encoder: 1 asks the drive to latch the next one, which sets it to 0; its drive position
-    INDEX_ARMED: Final = 39
-    INDEX_LATCH: Final = 40
+    # what the drive is asked to latch, one of `Latch`, which sets it to 0 when it has come; the drive position of that
+    LATCH_ASKED: Final = 39
+    LATCH_P: Final = 40
 
     COUNT: Final = 41
 
@@ -73,6 +73,20 @@ class Status:
     """No communication: the actual values are those of an earlier tick."""
     LOST: Final = 8
     """Error: invalid for too many cycles."""
+
+
+class Latch:
+    """Value of the row `Q.LATCH_ASKED`: what a drive is asked to latch; 0 for nothing."""
+
+    ZERO_PULSE: Final = 1
+    OVERFLOW: Final = 2
+    """Of the encoder's count."""
+    RISING: Final = 3
+    """Edge of the latch input, by hardware."""
+    FALLING: Final = 4
+    SOFT_RISING: Final = 5
+    """The same by the program of the drive, which reads its input once per cycle."""
+    SOFT_FALLING: Final = 6
 
 
 JOB_OTHER: Final = 0

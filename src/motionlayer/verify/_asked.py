@@ -31,7 +31,8 @@ def asked_rules(axis: Axis, lives: Lives) -> list[Finding]:
         *_kinds(axis, own),
         *_joints(axis, own, lives),
     ]
-    return [*found, *_targets(axis, own, lives)]
+    goals = Goals(axis, lives)
+    return [*found, *_targets(axis, own, lives, goals), *_held(axis, own, goals)]
 
 
 def _begun(axis: Axis, lives: Lives) -> list[Finding]:
@@ -161,9 +162,9 @@ def waiting(axis: Axis, lives: Lives, running: Life, tick: int) -> list[Life]:
     ]
 
 
-def _targets(axis: Axis, own: Lives, lives: Lives) -> list[Finding]:
+def _targets(axis: Axis, own: Lives, lives: Lives, goals: Goals) -> list[Finding]:
     """A positioning leads to the position that was asked for, or to the joint where a blended one takes over."""
-    goals, found = Goals(axis, lives), []
+    found = []
     for plan, life, asked in plans_of(axis, own, "position", "passing"):
         known = goals.of(life) if asked.to_position else None
         if known is None:
@@ -177,4 +178,21 @@ def _targets(axis: Axis, own: Lives, lives: Lives) -> list[Finding]:
         if nearest > 0.0:
             text = f"command {life.number} leads to another place than it asked for, {life.text}"
             found.append(axis.finding("command target", tick, text, value=target, limit=place, unit=axis.unit(0)))
+    return found
+
+
+def _held(axis: Axis, own: Lives, goals: Goals) -> list[Finding]:
+    """What the override holds at rest is not done there; a positioning only where it had come to its target before."""
+    last = {number: plan for plan, number in enumerate(axis.curves.command.tolist())}
+    found = []
+    for plan, life, asked in plans_of(axis, own, "stop"):
+        if last[life.number] != plan or life.kind != Kind.DONE or asked.name in (*BRAKES, "home"):
+            continue
+        known = goals.of(life) if asked.to_position else ()
+        if known is None or (asked.name == "jog" and not asked.steps):
+            continue
+        here = float(axis.curves.last_piece()[plan, 1])
+        if not any(abs(here - place) <= allowed for place, allowed in (goals.at(goal, plan) for goal in known)):
+            text = f"command {life.number} is done where the override held it, {life.text}"
+            found.append(axis.finding("done", life.ended, text))
     return found

@@ -29,6 +29,7 @@ class Stretches:
 
     Attributes:
         plan: that each belongs to.
+        length: s.
         speed: largest |v|.
         strength: largest |a|.
         grows, falls: what |v| does.
@@ -36,6 +37,7 @@ class Stretches:
     """
 
     plan: Integers
+    length: Floats
     speed: Floats
     strength: Floats
     grows: Flags
@@ -59,7 +61,7 @@ def stretches(curves: Curves) -> Stretches:
     cuts = [np.clip(np.where(np.isfinite(root), root, 0.0), begin, length) for root in _roots(v, a, j)]
     s = np.sort(np.stack([begin, *cuts, length], axis=1), axis=1)
     # Shorter than the rounding of its ends, a stretch has no sign to speak of.
-    keep = np.diff(s, axis=1) > TOLERANCES["handover"].relative * (t + length)[:, None]
+    keep = np.diff(s, axis=1) > TOLERANCES["handover"].relative * (t + length + curves.dt)[:, None]
     piece = np.repeat(np.arange(len(t), dtype=np.int64)[:, None], 4, axis=1)[keep]
     nothing = np.zeros(len(piece))
     start, end = s[:, :-1][keep], s[:, 1:][keep]
@@ -69,6 +71,7 @@ def stretches(curves: Curves) -> Stretches:
     full = curves.jerk[plan] * (1.0 - TOLERANCES["plan limits"].relative)
     return Stretches(
         plan=plan,
+        length=end - start,
         speed=np.maximum(np.abs(first.v), np.abs(last.v)),
         strength=np.maximum(np.abs(first.a), np.abs(last.a)),
         grows=power > 0.0,
@@ -91,6 +94,11 @@ def _comes_inside(cut: Stretches, rows: slice, count: int) -> bool:
 def _softens(cut: Stretches, rows: slice, count: int) -> bool:
     """Whether |a| falls with the full jerk over the first `count` stretches of a plan."""
     return _relenting(cut, rows) >= count
+
+
+def comes_inside(cut: Stretches, rows: slice) -> bool:
+    """Tell whether |v| falls all the way of a plan, once a has come to zero."""
+    return _comes_inside(cut, rows, rows.stop - rows.start)
 
 
 def _illegal(cut: Stretches, over: Flags, legal: Callable[[Stretches, slice, int], bool]) -> Flags:

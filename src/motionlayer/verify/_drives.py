@@ -105,7 +105,10 @@ def _for_longer(flags: Flags, rows: int) -> Flags:
 
 
 def _steps(axis: Axis) -> list[Finding]:
-    """The actual position changes by whole steps of the encoder, where the coordinate stays the same."""
+    """The actual position changes by whole steps of the encoder, where the coordinate stays the same.
+
+    Before the drive is heard for the first time it is that of the machine description, which may be between two steps.
+    """
     step = axis.machine["drive"].get("encoder_resolution", 0.0)
     if step == 0.0 or quantisation(axis, "actual_position") > 0.0 or len(axis.ticks) < 2:
         return []
@@ -113,6 +116,7 @@ def _steps(axis: Axis) -> list[Finding]:
     change = np.diff(actual)
     off = np.abs(change - np.round(change / step) * step)
     allowed = 16.0 * EPS * (np.abs(actual[1:]) + np.abs(actual[:-1]) + np.abs(actual).max())
-    bad = (off > allowed) & ~axis.redefined[1:]
+    heard = np.logical_or.accumulate(actual[:-1] != axis.machine.get("start_position", 0.0))
+    bad = (off > allowed) & ~axis.redefined[1:] & heard
     text = "the actual position changes by no whole step of the encoder"
     return axis.findings("encoder", bad, axis.ticks[1:], text, value=change, limit=np.full(len(off), step), order=0)

@@ -7,7 +7,7 @@ from motionlayer.verify._asked import Lives, override_of, plans_of, served
 from motionlayer.verify._axis import Axis
 from motionlayer.verify._lives import Life
 from motionlayer.verify._report import Finding
-from motionlayer.verify._requests import CONTINUOUS, Request, request
+from motionlayer.verify._requests import BRAKES, CONTINUOUS, Request, request
 from motionlayer.verify._tolerance import TOLERANCES
 
 LIMITS: Final = (("acceleration", 2), ("deceleration", 2), ("jerk", 3))
@@ -20,15 +20,19 @@ def dynamics_rules(axis: Axis, lives: Lives) -> list[Finding]:
     return [*_endless(axis, own), *_velocity_limits(axis, own), *_limits(axis, own, lives)]
 
 
-def _asked(axis: Axis, life: Life, name: str) -> float:
+def asked_for(axis: Axis, life: Life, name: str) -> float:
     """Return a number of the dynamics of a command: its own, or that of the axis; nan if that is not known."""
-    own = request(life.text).number(name)
-    if not math.isnan(own):
+    asked = request(life.text)
+    own, most = asked.number(name), asked.name == "emergency_stop"
+    if not (math.isnan(own) or most):
         return own
-    return math.nan if (axis.written <= life.accepted).any() else float(axis.machine.get(name, math.nan))
+    if (axis.written <= life.accepted).any():
+        return math.nan
+    return axis.maximum(name) if most else float(axis.machine.get(name, math.nan))
 
 
-def _differs(value: float, expected: float) -> bool:
+def differs(value: float, expected: float) -> bool:
+    """Tell whether a limit is another one; a number that is not known (nan) never is."""
     return abs(value - expected) > TOLERANCES["limits"].relative * (abs(value) + abs(expected))
 
 
@@ -46,7 +50,7 @@ def _endless(axis: Axis, own: Lives) -> list[Finding]:
             sides = ["min" if sign < 0.0 else "max" for sign in _signs(axis, life, asked)]
             row = axis.row_taken[plan]
             ends = [] if asked.name == "home" else [float(axis.software_limit(side)[row]) for side in sides]
-        if any(math.isnan(end) or not _differs(target, end) for end in ends):
+        if any(math.isnan(end) or not differs(target, end) for end in ends):
             continue
         nearest = min(ends, key=lambda end: abs(end - target), default=math.nan)
         text = f"command {life.number} goes on otherwise than it asked for, {life.text}"
@@ -68,7 +72,7 @@ def _speeds(axis: Axis, life: Life, asked: Request) -> list[float]:
     if asked.name == "home":
         return _searches(axis, life, asked)
     name = "end_velocity" if asked.name in CONTINUOUS else "velocity"
-    return [sign * _asked(axis, life, name) for sign in _signs(axis, life, asked)]
+    return [sign * asked_for(axis, life, name) for sign in _signs(axis, life, asked)]
 
 
 def _searches(axis: Axis, life: Life, asked: Request) -> list[float]:
@@ -109,11 +113,11 @@ def _velocity_limits(axis: Axis, own: Lives) -> list[Finding]:
             most = [abs(speed) for speed in _searches(axis, life, asked)]
         else:
             end = asked.number("end_velocity") if asked.name in CONTINUOUS else 0.0
-            most = [max(_asked(axis, life, "velocity"), end)]
+            most = [max(asked_for(axis, life, "velocity"), end)]
         ends = [override * one for one in most]
         if axis.curves.kind[plan] == "passing" and ends[0] < limit:
             ends = [abs(float(axis.curves.last_piece()[plan, 2]))]
-        if not any(math.isnan(one) or not _differs(limit, one) for one in ends):
+        if not any(math.isnan(one) or not differs(limit, one) for one in ends):
             text = f"the velocity limit is not what command {life.number} asked for, {life.text}"
             tick, expected = int(axis.curves.tick[plan]), ends[0] if ends else math.nan
             found.append(axis.finding("command limits", tick, text, value=limit, limit=expected, unit=axis.unit(1)))
@@ -121,17 +125,20 @@ def _velocity_limits(axis: Axis, own: Lives) -> list[Finding]:
 
 
 def _limits(axis: Axis, own: Lives, lives: Lives) -> list[Finding]:
-    """Plans are made under the limits asked for; a halt that waits lends its brake to the motion before it."""
+    """Plans are made under the limits asked for; a halt that waits lends its brake to what is before it.
+
+    So are those that brake: a halt and a stop, a motion that the override holds, a jog that is released.
+    """
     halts = [life for life in lives.values() if life.source == axis.name and request(life.text).name == "halt"]
     found = []
-    for plan, life, _ in plans_of(axis, own, "position", "velocity", "passing"):
+    for plan, life, asked in plans_of(axis, own, "position", "velocity", "passing", "stop"):
         tick = int(axis.curves.tick[plan])
         lent = [one for one in halts if life.accepted <= one.accepted <= tick and one.number > life.number]
-        for name, order in LIMITS:
-            limit, own_one = float(getattr(axis.curves, name)[plan]), _asked(axis, life, name)
-            others = [_asked(axis, one, name) for one in lent if name != "acceleration"]
+        for name, order in LIMITS[1:] if asked.name in BRAKES else LIMITS:  # a brake does not accelerate
+            limit, own_one = float(getattr(axis.curves, name)[plan]), asked_for(axis, life, name)
+            others = [asked_for(axis, one, name) for one in lent if name != "acceleration"]
             if any(
-                math.isnan(one) or not _differs(limit, one) for one in (own_one, *(o for o in others if o > own_one))
+                math.isnan(one) or not differs(limit, one) for one in (own_one, *(o for o in others if o > own_one))
             ):
                 continue
             text = f"the {name} is not what command {life.number} asked for, {life.text}"

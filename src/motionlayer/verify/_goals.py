@@ -8,7 +8,7 @@ either way.
 import math
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,11 +16,10 @@ from motionlayer.event import Kind
 from motionlayer.verify._axis import Axis
 from motionlayer.verify._curves import Floats
 from motionlayer.verify._lives import Life
-from motionlayer.verify._requests import BRAKES, Request, request
+from motionlayer.verify._orientations import FULL_TURN, ahead, orientations
+from motionlayer.verify._requests import BRAKES, MOTIONS, Request, request
+from motionlayer.verify._stops import stops
 from motionlayer.verify._tolerance import TOLERANCES, Slack
-
-FULL_TURN: Final = {"period": 360.0, "tolerance": 0.0}
-"""The modulo view of an axis whose description has none."""
 
 
 class Goal(NamedTuple):
@@ -59,6 +58,14 @@ class Goals:
         jump = curves.pieces[curves.first[:-1], 1] - curves.at(before, curves.time(before, curves.tick)).p
         return np.concatenate([[0.0], np.cumsum(np.where(curves.kind == "shift", jump, 0.0))])
 
+    @cached_property
+    def _rest(self) -> Floats:
+        """Where each plan could come to rest with the dynamics of the motion before it, u."""
+        curves, plan = self._axis.curves, np.arange(len(self._axis.curves), dtype=np.int64)
+        moving = np.maximum.accumulate(np.where(curves.kind == "shift", 0, plan))
+        before = moving[np.maximum(plan - 1, 0)]
+        return stops(curves, curves.deceleration[before], curves.jerk[before]).rest
+
     def at(self, goal: Goal, plan: int) -> tuple[float, float]:
         """Return where a goal is in the coordinate of a plan, and the tolerance of that."""
         way = float(self._shift[plan + 1] - self._shift[min(goal.since, plan + 1)])
@@ -88,15 +95,18 @@ class Goals:
         return int(own[0]) if len(own) else None
 
     def start(self, life: Life) -> Goal | None:
-        """Return the set position at which a command began; None if it is not in the trace."""
+        """Return the set position at which a command began; None if it is not in the trace.
+
+        One without a plan was replaced in the tick in which it began.
+        """
         plan, curves = self.first(life), self._axis.curves
         if plan is not None:
             one = np.array([plan], np.int64)
             return Goal(float(curves.at(one, np.maximum(curves.offset[one], 0.0)).p[0]), plan + 1, exact=False)
-        row = life.accepted - int(self._axis.ticks[0])
+        row = life.ended - int(self._axis.ticks[0])
         if not 0 <= row < len(self._axis.ticks):
             return None
-        since = int(np.searchsorted(curves.tick, life.accepted + 1))
+        since = int(np.searchsorted(curves.tick, life.ended + 1))
         return Goal(float(self._axis.signals["set_position"][row]), since, exact=False)
 
     def _work_out(self, life: Life, asked: Request) -> tuple[Goal, ...] | None:
@@ -111,7 +121,7 @@ class Goals:
             bases = self._commanded(life, start)
             return None if bases is None else tuple(_beside(base, asked.number("distance")) for base in bases)
         if asked.steps:
-            return _stepped(start, asked)
+            return tuple(goal for begin in self._begins(life, start) for goal in _stepped(begin, asked))
         return self._oriented(life, start, asked) if asked.name == "move_modulo" else None
 
     def _commanded(self, life: Life, start: Goal) -> tuple[Goal, ...] | None:
@@ -151,52 +161,53 @@ class Goals:
                 yield tick, one if asked.to_position else None, True
 
     def _replaced(self, life: Life) -> Iterator[tuple[int, Life | None, bool]]:
-        """Yield the same for commands before it that no plan serves: they were replaced in their own tick."""
+        """Yield the same for commands before it that no plan serves: they were replaced in the tick they began in.
+
+        One that waited began if what it waited for was done by then; it has been active, and counts.
+        """
         for one in self._own:
             asked = request(one.text)
-            if one.number < life.number and self.first(one) is None and (asked.to_position or asked.endless):
-                yield one.accepted, one if asked.to_position else None, asked.mode == "ABORTING"
+            if one.number >= life.number or self.first(one) is not None or not (asked.to_position or asked.endless):
+                continue
+            at_once = one.accepted == one.ended
+            if at_once or self._done_before(one):
+                yield one.ended, one if asked.to_position else None, at_once and asked.mode == "ABORTING"
+
+    def _replaces_unseen(self, life: Life) -> bool:
+        """Tell whether a command before it in its tick was the motion before it, and no plan shows that."""
+        beside = (one for one in self._own if one.accepted == life.accepted and one.number < life.number)
+        return any(request(one.text).name in MOTIONS and self.first(one) is None for one in beside)
+
+    def _done_before(self, waiting: Life) -> bool:
+        """Tell whether a command that was given before one that waited was done just before that ended."""
+        done = (one for one in self._own if one.kind == Kind.DONE and one.number < waiting.number)
+        return any(waiting.ended - 1 <= one.ended <= waiting.ended for one in done)
+
+    def _begins(self, life: Life, start: Goal) -> Iterator[Goal]:
+        """Yield where a command began in the coordinate it was accepted in: before or after the shifts of that tick."""
+        for _, since, _ in self.told(0.0, life.accepted):
+            way = float(self._shift[start.since] - self._shift[min(since, start.since)])
+            yield Goal(start.place - way, since, exact=False)
 
     def _oriented(self, life: Life, start: Goal, asked: Request) -> tuple[Goal, ...] | None:
-        """Return the orientations that a modulo move from rest or behind another one may lead to.
+        """Return the orientations that a modulo move may lead to; None if what was before it in its tick is not known.
 
-        They are those of the coordinate in which it was accepted. In motion it depends on the dynamics of the motion
-        before it, and is not judged.
+        They are those of the coordinate in which it was accepted. In motion it is the first one at or behind the place
+        where the axis could come to rest with the dynamics of the motion before it.
         """
         plan, curves = self.first(life), self._axis.curves
         modulo = self._axis.machine.get("modulo") or FULL_TURN
         if plan is None or (self._axis.written <= life.accepted).any():
             return None
-        if curves.pieces[curves.first[plan], 2:4].any() and not curves.inside[plan]:
+        moves = bool(curves.pieces[curves.first[plan], 2:4].any() and not curves.inside[plan])
+        if moves and (int(curves.tick[plan]) != life.accepted or self._replaces_unseen(life)):
             return None
         found: list[Goal] = []
-        for _, since, _ in self.told(0.0, life.accepted):
-            here = start.place - float(self._shift[plan + 1] - self._shift[min(since, plan + 1)])
-            found += [Goal(place, since, exact=False) for place in _orientations(here, asked, modulo)]
+        for here, since, _ in self._begins(life, start):
+            rest = float(self._rest[plan]) + here - start.place
+            places = ahead(rest, asked, modulo) if moves else orientations(here, asked, modulo)
+            found += [Goal(place, since, exact=False) for place in places]
         return tuple(found)
-
-
-def _orientations(here: float, asked: Request, modulo: Mapping[str, float]) -> list[float]:
-    """Return the places near `here` with the orientation asked for that its direction allows to go to."""
-    period, position, direction = modulo["period"], asked.number("position"), asked.values.get("direction", "")
-    turns = math.floor(position / period)
-    rest = position - turns * period
-    nearest = math.floor((here - rest) / period + 0.5)
-    signs = {"POSITIVE": (1,), "NEGATIVE": (-1,), "SHORTEST_WAY": (0,)}.get(direction, (1, -1))
-    counts = (nearest + sign * turns + one for sign in signs for one in (-1, 0, 1))
-    places = [count * period + rest for count in counts]
-    return [place for place in places if _in_reach(place - here, direction, turns * period, modulo)]
-
-
-def _in_reach(way: float, direction: str, turns: float, modulo: Mapping[str, float]) -> bool:
-    """Tell whether the way of a modulo move from rest is one that its direction allows."""
-    period, window = modulo["period"], modulo["tolerance"]
-    blur = 1e-9 * (period + abs(way))
-    if direction == "SHORTEST_WAY":
-        return abs(way) <= 0.5 * period + blur
-    forward = -window - blur <= way - turns <= period + blur
-    backward = -window - blur <= -way - turns <= period + blur
-    return (forward and direction != "NEGATIVE") or (backward and direction != "POSITIVE")
 
 
 def _beside(goal: Goal, distance: float) -> Goal:

@@ -6,9 +6,12 @@ from typing import TYPE_CHECKING, Final
 from motionlayer.verify import _bounds, _drives, _plans, _samples
 from motionlayer.verify._asked import asked_rules
 from motionlayer.verify._axis import Axis
+from motionlayer.verify._blends import blend_rules
+from motionlayer.verify._brakes import brake_rules
 from motionlayer.verify._causes import cause_rules
 from motionlayer.verify._commands import command_rules
 from motionlayer.verify._dynamics import dynamics_rules
+from motionlayer.verify._homings import homing_rules
 from motionlayer.verify._lives import Life, life_findings, read_lives
 from motionlayer.verify._moments import Moments
 from motionlayer.verify._overrides import override_rules
@@ -97,7 +100,8 @@ def _judge(trace: "Trace", name: str, lives: Mapping[int, Life]) -> list[Finding
     moments = Moments.of(axis, trace.events, lives)
     findings += [*state_rules(axis), *cause_rules(axis, moments, lives), *power_rules(axis, moments)]
     findings += [*override_rules(axis, lives), *command_rules(axis, lives)]
-    findings += [*asked_rules(axis, lives), *dynamics_rules(axis, lives)]
+    findings += [*asked_rules(axis, lives), *dynamics_rules(axis, lives), *brake_rules(axis, lives)]
+    findings += [*blend_rules(axis, lives), *homing_rules(axis, lives)]
     return [*findings, *redefinition_rules(axis, lives)]
 
 

@@ -3,8 +3,8 @@ from typing import Any
 
 import pytest
 
+from motionlayer.event import MessageList
 from motionlayer.record.log import LogError, LogFolder
-from motionlayer.record.log._line import List
 from tests.record.log.support import files, message, opened, texts, times
 
 DAY = "2025_10_24"
@@ -103,9 +103,9 @@ def test_a_piece_of_a_line_that_a_killed_run_left_stays_alone(tmp_path: Path) ->
 
 def test_a_file_and_its_folder_may_be_taken_away_at_any_time(tmp_path: Path) -> None:
     folder = LogFolder(tmp_path / "log")
-    folder.write(List.MOTION, DAY, b"one\n")
+    folder.write(MessageList.MOTION, DAY, b"one\n")
     (tmp_path / "log" / DAY).rename(tmp_path / "moved")
-    folder.write(List.MOTION, DAY, b"two\n")
+    folder.write(MessageList.MOTION, DAY, b"two\n")
     folder.close()
     assert files(tmp_path) == {f"moved/851_MSG_PLC_{DAY}.txt": ["one"], f"log/{MOTION}.txt": ["two"]}
     assert (folder.trouble, folder.missing) == ("", 0)
@@ -113,7 +113,7 @@ def test_a_file_and_its_folder_may_be_taken_away_at_any_time(tmp_path: Path) -> 
 
 def test_the_port_is_part_of_the_name(tmp_path: Path) -> None:
     folder = LogFolder(tmp_path, port=852)
-    folder.write(List.METRICS, DAY, b"one\n")
+    folder.write(MessageList.METRICS, DAY, b"one\n")
     folder.close()
     assert list(files(tmp_path)) == [f"{DAY}/852_MSG_Metrics_{DAY}.txt"]
 

@@ -8,9 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from motionlayer.event import Level, Levels
+from motionlayer.event import Level, Levels, MessageList
 from motionlayer.record.log import LogFolder, MessageLog
-from motionlayer.record.log._line import List
 from tests.record.log.support import files, local, message, resize, small_disk, texts, times
 
 DAY = "2025_10_24"
@@ -34,11 +33,11 @@ def numbers(folder: Path) -> list[int]:
     return [int(text) for text in texts(files(folder)[FILE]) if text.isdigit()]
 
 
-def test_lines_are_kept_and_written_when_there_is_room_again(disk: Path) -> None:
+def test_d69_lines_are_kept_and_written_when_there_is_room_again(disk: Path) -> None:
     told: list[str] = []
     folder = LogFolder(disk, on_trouble=told.append)
     for block in range(20):
-        folder.write(List.MOTION, DAY, lines(100 * block, 100))
+        folder.write(MessageList.MOTION, DAY, lines(100 * block, 100))
     (trouble,) = told
     assert trouble.startswith(f"messages cannot be written into {disk}: No space left on device; free space: ")
     fit = numbers(disk)  # whole lines only: `files` looks at that
@@ -54,10 +53,10 @@ def test_lines_are_kept_and_written_when_there_is_room_again(disk: Path) -> None
 def test_what_exceeds_the_bound_is_counted_and_marked_in_its_place(disk: Path) -> None:
     folder = LogFolder(disk, held=20_000)
     for block in range(40):
-        folder.write(List.MOTION, DAY, lines(100 * block, 100))
+        folder.write(MessageList.MOTION, DAY, lines(100 * block, 100))
     assert folder.missing > 0
     resize(disk, "1m")
-    folder.write(List.MOTION, DAY, lines(4000, 100))
+    folder.write(MessageList.MOTION, DAY, lines(4000, 100))
     folder.close()
     whole = files(disk)[FILE]
     (mark,) = [number for number, line in enumerate(whole) if "missing" in line]
@@ -88,12 +87,12 @@ def test_a_disk_that_stays_full_costs_what_is_kept_and_the_end_comes_in_order(di
 def test_after_each_recovery_the_next_trouble_is_told_again(disk: Path) -> None:
     told: list[str] = []
     folder = LogFolder(disk, on_trouble=told.append)
-    folder.write(List.MOTION, DAY, lines(0, 2000))
+    folder.write(MessageList.MOTION, DAY, lines(0, 2000))
     resize(disk, "200k")
     folder.retry()
     folder.sync()
     assert len(told) == 1
-    folder.write(List.MOTION, DAY, lines(2000, 5000))
+    folder.write(MessageList.MOTION, DAY, lines(2000, 5000))
     assert len(told) == 2
     folder.close()
 
@@ -106,7 +105,7 @@ def test_a_limit_on_the_size_of_a_file(tmp_path: Path) -> None:
         signal.alarm(60)
         resource.setrlimit(resource.RLIMIT_FSIZE, (30_000, 30_000))
         folder = LogFolder(tmp_path, on_trouble=told.append)
-        folder.write(List.MOTION, DAY, lines(0, 1000))
+        folder.write(MessageList.MOTION, DAY, lines(0, 1000))
         os._exit(0 if len(told) == 1 and "File too large" in told[0] else 1)
     assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
     assert numbers(tmp_path) == list(range(600))

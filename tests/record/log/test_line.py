@@ -2,8 +2,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from motionlayer.event import Device, Event, Kind, Level, Subdevice, device_of
-from motionlayer.record.log._line import WIDTH, Lines, List, device_name, list_of
+from motionlayer.event import Device, Event, Kind, Level, MessageList, Subdevice, device_of, list_of
+from motionlayer.record.log._line import WIDTH, Lines, device_name
 from tests.record.log.support import AXIS, local, message
 
 SAMPLE = """\
@@ -82,17 +82,17 @@ def test_no_text_makes_two_lines_or_columns_or_bytes_that_are_no_utf_8(text: str
     assert line.endswith("\n")
     assert line[:-1].replace("\t", "").isprintable()
     assert line.count("\t") == 5
-    shown = f"{source}: {text}" if source else text
+    shown = text if text.startswith(source) else f"{source}: {text}"
     for found, given_ in zip(line[:-1].split("\t")[5], shown, strict=False):
         assert found == given_ or (found == " " and not given_.isprintable())
 
 
-def test_lists_are_those_of_the_table_with_d45() -> None:
+def test_d45_lists_are_those_of_the_table_and_of_what_nobody_wrote() -> None:
     motion = {"XfcTriggerBox", "XfcTouchProbe", "Camming", "NciChannel", "NciChannelCtrl", "Axis", "XfcAxis"}
     motion |= {"Device_MainAxis", "Device_Nci", "Device_Cam", "Device_Functions", "Device_FlyingSaw"}
     motion |= {"Device_ParameterSelector"}
-    corrected = {"FlyingSaw", "Device_Main", "Device_Null"}
-    assert {one.name for one in Device if list_of(one) is List.MOTION} == motion | corrected
-    assert {one.name for one in Device if list_of(one) is List.METRICS} == {"MetricsAxis"}
-    assert list_of(AXIS) is List.MOTION
+    corrected = {"FlyingSaw", "Device_Main", "Device_Null", "General"}
+    assert {one.name for one in Device if list_of(one) is MessageList.MOTION} == motion | corrected
+    assert {one.name for one in Device if list_of(one) is MessageList.METRICS} == {"MetricsAxis"}
+    assert list_of(AXIS) is MessageList.MOTION
     assert list_of(device_of(Device.Process, 3)) is None

@@ -4,17 +4,17 @@ Every call of every block is watched by an observer that knows the rules of PLCo
 is judged by `motionlayer.verify`.
 """
 
-import math
 import random
 from dataclasses import dataclass, field
 from typing import Any, Final
 
 from motionlayer import fb
+from motionlayer.bench.campaign._block_inputs import EAGER, EAGER_AT_REST, INPUTS, VELOCITIES, machine, options, value
 from motionlayer.bench.campaign._campaign import Campaign, Failure, judged
 from motionlayer.bench.campaign._observer import Observer, must
 from motionlayer.drive import Fault
-from motionlayer.machine import Machine, Simulation
-from motionlayer.nc import TRANSITIONS, BufferMode, Calibration, Direction, JogMode
+from motionlayer.machine import Simulation
+from motionlayer.nc import TRANSITIONS, BufferMode, JogMode
 from motionlayer.verify import verify
 
 TICKS: Final = 2000
@@ -24,62 +24,17 @@ MOST_TOLD: Final = 5
 """Findings that a failure quotes."""
 
 AXES: Final = "ABCDEF"
-NAN: Final = math.nan
 
-POSITIONS: Final = (0.0, 10.0, 50.0, 120.0, 300.0, -50.0, 390.0)
-VELOCITIES: Final = (20.0, 200.0, 500.0)
-DYNAMICS: Final = (0.0, 0.0, 800.0, 4000.0)
-JERKS: Final = (0.0, 0.0, 2e4, 1e5)
-HUGE: Final = 1e300
-BAD: Final = (NAN, math.inf, -math.inf, -5.0, 0.0, HUGE)
-"""Values that no input of a motion takes; some take 0."""
+CAMS: Final = ("none", "none", "place", "phase", "any")
+"""Ways to read a cam: not at all, at a place, as an axis without one does, or as it comes."""
 
-MOTION: Final = {
-    "Velocity": VELOCITIES,
-    "Acceleration": DYNAMICS,
-    "Deceleration": DYNAMICS,
-    "Jerk": JERKS,
-    "BufferMode": tuple(BufferMode),
-}
-BRAKE: Final = {"Deceleration": DYNAMICS, "Jerk": JERKS}
+CAM_PLACE: Final = -5.0
+"""At and below it the cam is on that is read at a place, u."""
 
-INPUTS: Final[dict[str, dict[str, tuple[Any, ...]]]] = {
-    "MC_MoveAbsolute": MOTION | {"Position": POSITIONS},
-    "MC_MoveRelative": MOTION | {"Distance": POSITIONS},
-    "MC_MoveAdditive": MOTION | {"Distance": POSITIONS},
-    "MC_MoveModulo": MOTION | {"Position": POSITIONS, "Direction": tuple(Direction)},
-    "MC_MoveVelocity": MOTION | {"Direction": tuple(Direction)},
-    "MC_MoveContinuousAbsolute": MOTION | {"Position": POSITIONS, "EndVelocity": VELOCITIES},
-    "MC_MoveContinuousRelative": MOTION | {"Distance": POSITIONS, "EndVelocity": VELOCITIES},
-    "MC_Halt": BRAKE | {"BufferMode": tuple(BufferMode)},
-    "MC_Stop": BRAKE,
-    "MC_Reset": {},
-    "MC_Home": {"Position": POSITIONS, "HomingMode": tuple(Calibration)},
-    "MC_SetPosition": {"Position": POSITIONS, "Mode": (False, True)},
-}
-"""Good values of the Execute blocks; more of a block's inputs keep their defaults."""
-
-EAGER: Final = {"MC_Reset": 10.0, "MC_Stop": 0.2, "MC_Home": 0.5}
-"""How much more often than others a block is started."""
+LEAVING: Final = 4
+"""`HomingState` from which on the cam is left."""
 
 FAULTS: Final = ("drive_error", "encoder_jump", "lost_enable", "lost_communication", "blocked")
-
-
-AXIS: Final[dict[str, Any]] = {
-    "max_velocity": 500.0,
-    "max_acceleration": 4000.0,
-    "max_deceleration": 4000.0,
-    "max_jerk": 100_000.0,
-    "software_limit_min": -50.0,
-    "software_limit_max": 400.0,
-    "drive": {
-        "kind": "servo",
-        "position_gain": 50.0,
-        "time_constant": 0.002,
-        "dead_time": 0.002,
-        "brake_deceleration": 8000.0,
-    },
-}
 
 
 @dataclass
@@ -93,7 +48,11 @@ class Held:
 
 @dataclass
 class Station:
-    """One axis with its blocks."""
+    """One axis with its blocks.
+
+    Attributes:
+        cam: how the program reads a cam: one of `CAMS`.
+    """
 
     name: str
     ref: fb.AXIS_REF
@@ -101,12 +60,14 @@ class Station:
     jog: fb.MC_Jog
     override: fb.MC_SetOverride
     status: fb.MC_ReadStatus
+    cam: str
     held: list[Held] = field(default_factory=list)
 
 
-def station(run: Simulation, name: str) -> Station:
+def station(run: Simulation, name: str, cam: str) -> Station:
+    """Return an axis with one block of each kind, and a second absolute move that fights with the first."""
     ref = run.axis_refs[name]
-    made = Station(name, ref, fb.MC_Power(ref), fb.MC_Jog(ref), fb.MC_SetOverride(ref), fb.MC_ReadStatus(ref))
+    made = Station(name, ref, fb.MC_Power(ref), fb.MC_Jog(ref), fb.MC_SetOverride(ref), fb.MC_ReadStatus(ref), cam)
     for kind in INPUTS:
         if hasattr(fb, kind):
             made.held.append(Held(getattr(fb, kind)(ref), observer_of(kind)))
@@ -120,13 +81,6 @@ def observer_of(kind: str) -> Observer:
     return Observer(finish, endless=finish != "Done" or kind == "MC_Stop")
 
 
-def value(draw: random.Random, good: tuple[Any, ...]) -> Any:  # noqa: ANN401 - of the type of the input
-    """Return a good value mostly; for the others, numbers that no input takes or members that do not exist."""
-    if draw.random() > 0.08:
-        return draw.choice(good)
-    return 77 if isinstance(good[0], int) else draw.choice(BAD)
-
-
 def act(draw: random.Random, held: Held) -> None:
     """Change inputs of a block."""
     block = held.block
@@ -137,11 +91,19 @@ def act(draw: random.Random, held: Held) -> None:
     for name, good in INPUTS[type(block).__name__].items():
         new = value(draw, good)
         setattr(block, name, new)
-    if "Options" in block.INPUTS and draw.random() < 0.2 and isinstance(block.Options, fb.ST_MoveOptions):
-        block.Options = fb.ST_MoveOptions(EnableBlendingPosition=True, BlendingPosition=value(draw, POSITIONS))
-    elif "Options" in block.INPUTS:
-        block.Options = type(block.Options)()
+    if "Options" in block.INPUTS:
+        block.Options = options(draw, type(block.Options))
     block.Execute = True
+
+
+def read_cam(draw: random.Random, one: Station, home: fb.MC_Home) -> None:
+    """Give a homing the signal of the cam that the program reads."""
+    if one.cam == "place":
+        home.bCalibrationCam = one.ref.NcToPlc.ActPos <= CAM_PLACE
+    elif one.cam == "phase":
+        home.bCalibrationCam = one.ref.NcToPlc.HomingState < LEAVING
+    elif one.cam == "any" and draw.random() < 0.01:
+        home.bCalibrationCam = not home.bCalibrationCam
 
 
 def cycle(draw: random.Random, one: Station, pace: float) -> None:
@@ -167,9 +129,12 @@ def cycle(draw: random.Random, one: Station, pace: float) -> None:
     one.jog()
     must(one.jog.Busy + one.jog.Done + one.jog.CommandAborted + one.jog.Error <= 1, "MC_Jog shows two things", one.name)
     for held in one.held:
-        eager = pace * EAGER.get(type(held.block).__name__, 1.0)
+        kind = type(held.block).__name__
+        eager = pace * EAGER.get(kind, EAGER_AT_REST.get(kind, 1.0) if one.status.StandStill else 1.0)
         if draw.random() < eager or (held.block.Execute and draw.random() < 0.02):
             act(draw, held)
+        if isinstance(held.block, fb.MC_Home):
+            read_cam(draw, one, held.block)
         for _ in range(2 if draw.random() < 0.01 else 1):
             held.block()
             held.observer.look(held.block)
@@ -178,17 +143,6 @@ def cycle(draw: random.Random, one: Station, pace: float) -> None:
     more = one.status.DiscreteMotion, one.status.ContinuousMotion, one.status.SynchronizedMotion
     must(sum(states) + sum(more) == 1, "exactly one state", states, more)
     must(one.ref.axis.state in TRANSITIONS, "a state that is not in the table", one.ref.axis.state)
-
-
-def machine(draw: random.Random, axes: str) -> Machine:
-    """Return a machine of equal servo axes with one of three sets of monitors."""
-    monitors: tuple[dict[str, Any], ...] = (
-        {},
-        {"lag": 40.0, "lag_time": 0.01, "target_window": 1.0, "target_time": 0.005, "target_timeout": 0.5},
-        {"range_window": 2.0, "software_limits": True, "lag": 60.0},
-    )
-    axis = AXIS | {"monitor": draw.choice(monitors)}
-    return Machine.from_dict({"format": 1, "name": "blocks", "axis": dict.fromkeys(axes, axis)})
 
 
 def live(seed: int, case: int, ticks: int, axes: str = AXES) -> Simulation:
@@ -200,7 +154,7 @@ def live(seed: int, case: int, ticks: int, axes: str = AXES) -> Simulation:
     draw = random.Random(f"{seed} {case}")  # noqa: S311 - a case, no secret
     pace = draw.choice((0.0002, 0.001, 0.004))
     run = Simulation(machine(draw, axes), seed=case)
-    stations = [station(run, name) for name in axes]
+    stations = [station(run, name, draw.choice(CAMS)) for name in axes]
 
     def main(_run: Simulation) -> None:
         for one in stations:

@@ -1,6 +1,7 @@
 """What a random program does to its axes: its calls, and how it waits for them."""
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -156,8 +157,5 @@ async def _await(run: Simulation, command: Command[Any], act: Act, cycle: float)
     if isinstance(command, HeldCommand) and command.held:
         await run.sleep(act.choice % LONGEST_HOLD * cycle)
         command.release()
-    try:
-        with run.fail_after(AWAITED * cycle):
-            await command.settled()
-    except TimeoutError:
-        pass
+    with suppress(TimeoutError), run.fail_after(AWAITED * cycle):
+        await command.settled()

@@ -12,7 +12,7 @@ from motionlayer.event import Kind
 from motionlayer.record import Plan, Trace
 
 NUMBER: Final = re.compile(r"\b(position|distance|velocity|acceleration|deceleration|jerk)=([-+0-9.e]+)")
-JUDGED: Final = ("move_absolute(", "move_relative(", "move_velocity(")
+JUDGED: Final = ("move_absolute(", "move_relative(", "move_velocity(", "halt(", "stop(")
 """Commands all of whose numbers show in each of their plans."""
 
 
@@ -80,7 +80,7 @@ def mode(rng: np.random.Generator, trace: Trace) -> Damage | None:
 
 def asked(rng: np.random.Generator, trace: Trace) -> Damage | None:
     """Let a command have asked for another position, distance, velocity or limit than the one its plans show."""
-    plans = {plan.command: plan for plan in reversed(trace.plans) if plan.kind in ("position", "velocity")}
+    plans = {plan.command: plan for plan in reversed(trace.plans) if plan.kind in ("position", "velocity", "stop")}
     index = pick(rng, [k for k, one in enumerate(trace.events) if one.kind == Kind.ACCEPTED and one.command in plans])
     if index is None:
         return None
@@ -98,8 +98,10 @@ def asked(rng: np.random.Generator, trace: Trace) -> Damage | None:
 
 
 def _shows(plan: Plan, match: re.Match[str]) -> bool:
-    """Tell whether a plan is made after a number of its command: not raised or moved by another one."""
+    """Tell whether a plan is made after a number of its command: not raised, moved or held by another one."""
     number, name = float(match[2]), match[1]
+    if plan.kind == "stop" and not match.string.startswith(("halt(", "stop(")):
+        return False
     if name == "position":
         return plan.target == number
     if name == "distance":

@@ -31,7 +31,11 @@ BLOCKS: Final = {
     ),
     E.POSITIONING_TIMEOUT: ErrorText("timeout after a positioning", "see target_window; look for what holds the axis"),
     E.PROTECTED: ErrorText("the axis is in protected mode", "decouple it first, or allow motion commands to slaves"),
-    E.NOT_READY: ErrorText("the axis is not ready", "enable it and wait for the command to be done"),
+    E.NOT_READY: ErrorText(
+        "the axis is not ready",
+        "enable it and wait for the command to be done; in the motion layer AXIS_INIT comes first",
+        "the motion layer, for a command before AXIS_INIT",
+    ),
     E.HOMING_FAILED: ErrorText("homing failed", "see the error before it; look for cam, switch and encoder"),
     E.TRIGGER_DEFINITION: ErrorText("definition of the trigger wrong"),
     E.LATCH_DISABLED: ErrorText("the latch of the position was disabled", "arm it again after a reset"),

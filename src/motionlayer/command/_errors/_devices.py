@@ -13,7 +13,7 @@ DEVICES: Final = {
     E.MODULO_TOLERANCE: ErrorText("tolerance window of the modulo start not valid"),
     E.REFERENCE_MODE: ErrorText(
         "reference mode not valid or not supported",
-        "take one of the reference modes in the message",
+        "take one of the reference modes in the message, or give the drive the signal in the machine file",
         "MC_Home, by its `ReferenceMode`",
     ),
     E.SET_POSITION_RANGE: ErrorText(
@@ -64,7 +64,9 @@ DEVICES: Final = {
     E.REFERENCE_VELOCITY: ErrorText("reference velocity not valid"),
     E.OUTPUT_LIMITS: ErrorText("limits of the output not valid"),
     E.DRIVE_NOT_READY: ErrorText(
-        "the drive is not ready", "mend its error, then reset and enable", "the drive, by its status"
+        "the drive is not ready",
+        "mend its error, then reset and enable",
+        "the drive, by its status; the motion layer, when it does not follow in time",
     ),
     E.COMMUNICATION_COUNTER: ErrorText(
         "communication counter of the drive wrong", "look for the connection to the drive"

@@ -18,7 +18,11 @@ GENERAL: Final = {
     E.AXIS_ID: ErrorText(
         "axis id outside 1 to 255 or unknown", "name an axis of the machine file; an axis reference left at 0 is none"
     ),
-    E.ENCODER_ID: ErrorText("encoder id outside 1 to 255 or unknown"),
+    E.ENCODER_ID: ErrorText(
+        "encoder id outside 1 to 255 or unknown",
+        "take one of the encoders in the message",
+        "MC_SetPosition, by its `EncoderIndex`",
+    ),
     E.DRIVE_ID: ErrorText("drive id unknown"),
     E.TABLE_ID: ErrorText("table id unknown"),
     E.COUPLING_TYPE: ErrorText("coupling type not permitted"),

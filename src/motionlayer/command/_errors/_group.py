@@ -72,7 +72,11 @@ GROUP: Final = {
     E.TARGET_VELOCITY: ErrorText(
         "target velocity not positive, or outside 1e-3 to 1e10", "give a velocity in this range"
     ),
-    E.POSITIONING_TOO_LONG: ErrorText("positioning too long for the resolution of numbers"),
+    E.POSITIONING_TOO_LONG: ErrorText(
+        "positioning too long for the resolution of numbers",
+        "go faster, or part of the way; see the ranges in profile.md",
+        "moves, by the time that they would take",
+    ),
     E.CYCLE_TIME: ErrorText("cycle time not positive"),
     E.OVERRIDE: ErrorText("override outside 0 to 100 %", "give 0 to 1 in Python, 0 to 100 % in the axis interface"),
     E.START_TYPE: ErrorText("start type unknown"),
@@ -94,7 +98,11 @@ GROUP: Final = {
     E.DECOUPLING_REFUSED: ErrorText("decoupling not permitted in this state", "only a slave can be decoupled"),
     E.FUNCTION_IMPOSSIBLE: ErrorText("the function makes no sense here, such as for a slave"),
     E.POSITION_TYPE: ErrorText("type of the start or end position not valid"),
-    E.FUNCTION_UNSUPPORTED: ErrorText("function not supported"),
+    E.FUNCTION_UNSUPPORTED: ErrorText(
+        "function not supported",
+        "see which commands the object has; a number may be mistyped",
+        "the motion layer, for a command that its object does not have",
+    ),
     E.CAM_RELEASED_EARLY: ErrorText(
         "homing cam released too early",
         "a longer cam, or a lower homing velocity towards it",
@@ -169,7 +177,9 @@ GROUP: Final = {
     E.ACTIVATION_MODE: ErrorText("activation mode not valid"),
     E.JERK_TOO_SMALL: ErrorText("jerk below the minimum", "give more jerk"),
     E.ACCELERATION_TOO_SMALL: ErrorText(
-        "acceleration or deceleration below the minimum", "give more acceleration or deceleration"
+        "acceleration or deceleration below the minimum",
+        "give more acceleration or deceleration, or less velocity or jerk",
+        "moves, where they are too weak to be planned",
     ),
     E.VELOCITY_TOO_SMALL: ErrorText("velocity below the minimum", "give more velocity"),
     E.ACTIVATION_PENDING: ErrorText("another activation is pending", "wait for it, or cancel it"),
@@ -198,7 +208,7 @@ GROUP: Final = {
     E.DISTANCE_TOO_SHORT: ErrorText(
         "remaining distance too short",
         "command earlier, a longer way, or with more deceleration",
-        "moves with an end velocity, blended moves",
+        "moves with an end velocity, blended moves; moves by less than can be planned",
     ),
     E.START_PARAMETER: ErrorText("start parameters not valid"),
     E.CAM_NOT_FOUND: ErrorText(

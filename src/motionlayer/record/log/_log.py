@@ -7,9 +7,9 @@ from threading import Event as Signal
 from threading import Thread
 from typing import Final, NamedTuple
 
-from motionlayer.event import Event, Level, Levels
+from motionlayer.event import Event, Level, Levels, Lists, MessageList
 from motionlayer.record.log._errors import LogError
-from motionlayer.record.log._line import Lines, List, Lists, note
+from motionlayer.record.log._line import Lines, note
 from motionlayer.record.log._writer import LogFolder
 from motionlayer.record.log._zone import LocalTime, Shift
 
@@ -181,7 +181,7 @@ class MessageLog:
 
     def _batch(self, count: int) -> None:
         """Write the next messages, those of one date at a time."""
-        lines: dict[List, list[str]] = {one: [] for one in List}
+        lines: dict[MessageList, list[str]] = {one: [] for one in MessageList}
         local, take, line_of, lists = self._local, self._queue.popleft, self._lines.line, self._lists
         date, midnights = local.date, local.midnights
         for _ in range(count):
@@ -189,7 +189,7 @@ class MessageLog:
             if type(item) is Event:
                 of, line = lists[item.device], line_of(item)
             elif type(item) is _Lost:
-                of, line = List.MOTION, _gap(local.text(item.tick), item.number)
+                of, line = MessageList.MOTION, _gap(local.text(item.tick), item.number)
             else:
                 local.slip(item[0])
                 continue
@@ -197,12 +197,12 @@ class MessageLog:
                 self._flush(lines, date)
                 date, midnights = local.date, local.midnights
                 if local.shift is not None:
-                    lines[List.MOTION].append(_shifted(line, local.shift))
+                    lines[MessageList.MOTION].append(_shifted(line, local.shift))
             if of is not None:
                 lines[of].append(line)
         self._flush(lines, date)
 
-    def _flush(self, lines: dict[List, list[str]], date: str) -> None:
+    def _flush(self, lines: dict[MessageList, list[str]], date: str) -> None:
         for of, some in lines.items():
             if some:
                 self._folder.write(of, date, "".join(some).encode())

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from motionlayer.event import Level
+from motionlayer.event import Level, MessageList
 from motionlayer.record.log._errors import LogError
 from motionlayer.record.log._files import Files
-from motionlayer.record.log._line import List, note
+from motionlayer.record.log._line import note
 from motionlayer.record.log._lock import Lock
 
 HELD: Final = 16_000_000
@@ -28,7 +28,7 @@ _HOPES: Final = {
 class _Piece(NamedTuple):
     """Whole lines of one list and one date."""
 
-    of: List
+    of: MessageList
     date: str
     lines: bytes
     mark: bool = False
@@ -72,7 +72,7 @@ class LogFolder:
         self._folder = folder
         self._on_trouble = on_trouble
         self._bound = held
-        self._files = {one: Files(folder, f"{port}{one.value}", size) for one in List}
+        self._files = {one: Files(folder, f"{port}{one.value}", size) for one in MessageList}
         self._kept: deque[_Piece] = deque()
         self._bytes = 0
         self._gap = 0
@@ -90,15 +90,15 @@ class LogFolder:
             LogError: it cannot be written.
         """
         try:
-            self._files[List.MOTION].probe(date)
+            self._files[MessageList.MOTION].probe(date)
         except OSError as error:
             self._lock.release()
             raise LogError(
-                f"{self._files[List.MOTION].path(date)} cannot be written: {error.strerror}; "
+                f"{self._files[MessageList.MOTION].path(date)} cannot be written: {error.strerror}; "
                 "mend that or name another log folder"
             ) from error
 
-    def write(self, of: List, date: str, lines: bytes) -> None:
+    def write(self, of: MessageList, date: str, lines: bytes) -> None:
         """Write whole lines, or keep them for the next try, or give them up. Never raises OSError."""
         piece = _Piece(of, date, lines)
         self.retry()

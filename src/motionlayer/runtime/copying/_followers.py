@@ -7,6 +7,7 @@ import enum
 import functools
 import random
 import re
+import struct
 import types
 import weakref
 from collections.abc import Callable, Iterable, Mapping
@@ -122,6 +123,9 @@ def _follow_array(copies: Copying, thing: np.ndarray[Any, Any], trail: Trail) ->
 
 
 def _follow_view(copies: Copying, thing: memoryview, trail: Trail) -> None:
+    if isinstance(thing.obj, np.ndarray):
+        copies.later([("obj", thing.obj)], trail, ".{}")
+        return
     if not thing.c_contiguous:
         _refuse(copies, thing, trail)
     if not thing.readonly:
@@ -176,7 +180,7 @@ ATOMS: Final = frozenset(
     {
         type(None), bool, int, float, complex, str, bytes, range, slice, type(...), type, types.ModuleType,
         BaseException, np.dtype, np.generic, np.ufunc, re.Pattern, weakref.ref, decimal.Decimal, dt.date,
-        dt.time, dt.timedelta, dt.tzinfo, types.WrapperDescriptorType, types.MethodDescriptorType,
+        dt.time, dt.timedelta, dt.tzinfo, types.WrapperDescriptorType, types.MethodDescriptorType, struct.Struct,
     }
 )  # fmt: skip
 """What never changes; subclasses do not either."""

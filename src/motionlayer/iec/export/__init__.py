@@ -1,0 +1,18 @@
+"""Declarations for the control side, in its own language: Structured Text, C, C#."""
+
+from motionlayer.iec.export._c import c_header
+from motionlayer.iec.export._csharp import csharp
+from motionlayer.iec.export._declarations import Constant, Declarations, Variable, VariableList
+from motionlayer.iec.export._st import literal as st_literal
+from motionlayer.iec.export._st import structured_text
+
+__all__ = [
+    "Constant",
+    "Declarations",
+    "Variable",
+    "VariableList",
+    "c_header",
+    "csharp",
+    "st_literal",
+    "structured_text",
+]

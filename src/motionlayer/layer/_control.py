@@ -1,0 +1,73 @@
+"""`ControlSide`: the variables of a motion layer in another machine, used as if the layer were here.
+
+Ctrl, Data … are objects here that programs write; they are published in output images. State, Info … are what the input
+images say. Names, types and indices are those of the layer, so that the same program runs on both sides. What differs
+is time: an answer takes as many cycles as the connection needs, there and back.
+"""
+
+from collections.abc import Sequence
+
+from motionlayer.command import Command, Ledger
+from motionlayer.layer._answer import Waits
+from motionlayer.layer._constants import Features, Sizes
+from motionlayer.layer._globals import Globals
+from motionlayer.layer._mapping import MapOptions
+from motionlayer.layer._mapping_build import Outside, control_mapping, map_variables
+from motionlayer.layer._objects import axis_objects
+from motionlayer.layer._starting import Starting
+from motionlayer.layer.types import Progress
+from motionlayer.runtime import Stage, Step
+
+
+class ControlSide:
+    """Ctrl and State of axes in another machine.
+
+    Args:
+        names: of the axes, in the order of their indices.
+        sizes: how many of each kind there are; as in the map of the other machine.
+        maps: what is mapped there for this machine.
+        outside: where the images lie.
+        ledger: the present tick, and who commands.
+
+    Attributes:
+        globals: all variables.
+        symbols: all of them by name.
+        mapping: the images.
+        axis: the objects of `GVL_AXIS`, by index and by name.
+    """
+
+    def __init__(
+        self, names: Sequence[str], sizes: Sizes, maps: Sequence[MapOptions], outside: Outside, ledger: Ledger
+    ) -> None:
+        self.globals = Globals(sizes, Features())
+        self.symbols = self.globals.symbols
+        self.mapping = map_variables(control_mapping, maps, self.globals, outside, ledger)
+        self._waits = Waits()
+        self._starting = Starting(self._is_ready)
+        self.axis = axis_objects(names, self.globals.axis, self._waits)
+
+    @property
+    def ready(self) -> bool:
+        """All axes have been brought up: `MAIN_AXIS.eInit` is 10000."""
+        return self._is_ready()
+
+    def _is_ready(self) -> bool:
+        return int(self.globals.program.axis.value) == Progress.DONE
+
+    def started(self) -> Command[None]:
+        """Return what can be awaited until the layer is ready."""
+        return self._starting.wait()
+
+    def stages(self) -> list[Stage]:
+        """Return what a tick calls."""
+        return [
+            Stage(Step.INPUTS, "MAPPING_in", self._copy_in),
+            Stage(Step.OUTPUTS, "MAPPING_out", self.mapping.copy_out),
+        ]
+
+    def _copy_in(self, tick: int) -> None:
+        """Show what the other machine has sent, and wake who waits for it."""
+        self.mapping.copy_in(tick)
+        if self._waits.open:
+            self._waits.look()
+        self._starting.look()

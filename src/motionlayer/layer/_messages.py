@@ -1,0 +1,95 @@
+"""`Messages`: the variables of `GVL_MSG_AXIS` follow what is said in the run (motion-layer 8).
+
+```
+events ─┬─ levels ─ queue ─ thread ─ file            record.log: complete, whatever the lists hold
+        └─ levels ─ slots ─ [end of tick] ─ MotionMessages, MetricMessages
+                      ▲ freed by the writer: many messages, an error, or 5 s
+```
+"""
+
+from collections.abc import Callable
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Final
+
+from motionlayer.event import Lists, MessageList
+from motionlayer.layer._messages_levels import LevelVariables
+from motionlayer.layer._messages_slots import Slots
+from motionlayer.layer._messages_writer import PERIOD, MessageWriter
+from motionlayer.runtime import Stage, Step
+
+if TYPE_CHECKING:
+    from motionlayer.command import Ledger
+    from motionlayer.event import Event, EventLog, Levels
+    from motionlayer.layer._message_globals import MessageGlobals
+
+SECONDS: Final = 19
+"""Characters of a local time without its milliseconds."""
+
+
+class Messages:
+    """Lists, their writers and levels.
+
+    Args:
+        variables: of `GVL_MSG_AXIS`.
+        events: of the run; listened to from now on.
+        levels: which messages are written, into files and lists alike.
+        ledger: the present tick.
+        time: returns the local time of a tick, `YYYY-MM-DD-hh:mm:ss.xxx`.
+        ready: tells whether the axes have been brought up.
+        cycle_time: length of a tick, s.
+    """
+
+    def __init__(
+        self,
+        variables: "MessageGlobals",
+        events: "EventLog",
+        levels: "Levels",
+        ledger: "Ledger",
+        time: Callable[[int], str],
+        ready: Callable[[], bool],
+        cycle_time: float,
+    ) -> None:
+        lists = {MessageList.MOTION: variables.motion, MessageList.METRICS: variables.metric}
+        period = max(1, round(PERIOD / cycle_time))
+        self._slots = {of: Slots(one, time) for of, one in lists.items()}
+        self._writers = [MessageWriter(one, self._slots[of], ledger, period) for of, one in lists.items()]
+        self._level_variables = LevelVariables(variables, levels, events, ledger)
+        self._levels = levels
+        self._lists = Lists()
+        self._time = time
+        self._ready = ready
+        self._starting = True
+        self._local_time = variables.local_time
+        self._local_date = variables.local_date
+        self._second = ""
+        events.listen(self._add)
+
+    def stage(self) -> Stage:
+        """Return what a tick calls, before images are copied out."""
+        return Stage(Step.OUTPUTS, "messages", self._cycle)
+
+    def _add(self, event: "Event") -> None:
+        """Take in a message, if it is of interest."""
+        if self._levels.passes(event):
+            of = self._lists[event.device]
+            if of is not None:
+                self._slots[of].add(event)
+
+    def _cycle(self, tick: int) -> None:
+        """Show what has come in this tick."""
+        self._level_variables.take()
+        if self._starting and self._ready():
+            self._starting = False
+            self._level_variables.end_of_start()
+        self._tell_time(self._time(tick))
+        for writer in self._writers:
+            writer.cycle()
+        for slots in self._slots.values():
+            slots.put_down()
+
+    def _tell_time(self, text: str) -> None:
+        self._local_time.memory[: len(text)] = text.encode()
+        if text[:SECONDS] != self._second:
+            self._second = text[:SECONDS]
+            at = datetime.strptime(self._second, "%Y-%m-%d-%H:%M:%S").replace(tzinfo=UTC)
+            self._local_date.value = int(at.timestamp())

@@ -1,0 +1,207 @@
+"""Machines wired to one another: one program on either side, delays, several controllers, what does not fit."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import pytest
+from tests.machines import LINEAR
+
+from motionlayer import Loopback, Machine, MachineRun, Simulation, Trace, replay
+from motionlayer.layer import AxisCommand, LayerError, Progress
+from motionlayer.verify import assert_valid
+
+HEAD: dict[str, Any] = {"format": 1}
+DONE = int(Progress.DONE)
+
+
+def motion(maps: dict[str, Any] | None = None, axes: str = "XYZ", **changes: Any) -> Machine:
+    layer = {"map": {"all": {"group": "axis"}} if maps is None else maps}
+    return Machine.from_dict(HEAD | {"name": "motion", "axis": dict.fromkeys(axes, LINEAR), "layer": layer} | changes)
+
+
+def control(*axes: str, **changes: Any) -> Machine:
+    return Machine.from_dict(HEAD | {"name": "control", "control": {"axes": list(axes or "XYZ"), **changes}})
+
+
+async def work(run: MachineRun) -> None:
+    """Knows commands and states alone; the same on the motion side and on a control side."""
+    layer = run.layer
+    await layer.started()
+    x, y = layer.axis["X"], layer.axis[2]
+    for axis in (x, y):
+        axis.ctrl.cmd = AxisCommand.ENABLE
+        await axis.state.done(AxisCommand.ENABLE)
+        axis.data.position, axis.data.velocity = 60.0, 200.0
+        axis.ctrl.cmd = AxisCommand.MOVE_POS
+        await axis.state.done(AxisCommand.MOVE_POS)
+        assert axis.info.position == pytest.approx(60.0)
+    x.ctrl.cmd = AxisCommand.GEAR_IN
+    with pytest.raises(LayerError) as caught:
+        await x.state.done(AxisCommand.GEAR_IN)
+    assert caught.value.state == AxisCommand.GEAR_IN + Progress.NOT_EXIST
+
+
+def wired() -> tuple[Trace, Trace]:
+    """Return the traces of the motion machine and of its control side."""
+    with Simulation(motion()) as axes, Simulation(control()) as controller:
+        assert Loopback(axes, controller).run(work(controller), time=20.0)
+        return axes.trace, controller.trace
+
+
+def test_one_program_runs_beside_the_layer_and_on_a_control_side() -> None:
+    with Simulation(motion({})) as run:
+        run.run(work(run), time=20.0)
+        direct = run.trace
+    there, _ = wired()
+    for trace in (direct, there):
+        assert_valid(trace)
+        assert trace["X.set_position"][-1] == trace["Y.set_position"][-1] == 60.0
+
+
+def test_wired_machines_do_the_same_each_time_and_each_can_be_replayed_alone() -> None:
+    first, second = wired(), wired()
+    assert [one.hash for one in first] == [one.hash for one in second]
+    again = replay(first[0], [])
+    assert again.same, again.difference
+    again = replay(first[1], [work])
+    assert again.same, again.difference
+
+
+def test_a_command_is_seen_in_its_own_cycle_and_the_answer_in_the_next_one() -> None:
+    with Simulation(motion()) as axes, Simulation(control()) as controller:
+        loopback = Loopback(axes, controller)
+        loopback.step(60)
+        assert axes.layer.ready
+        assert controller.layer.ready
+        here = controller.layer.axis[3]
+        here.ctrl.cmd = AxisCommand.ENABLE
+        loopback.step()
+        assert axes.layer.axis[3].state.code == AxisCommand.ENABLE + Progress.INIT
+        assert here.state.code == DONE  # still the answer to NULL
+        loopback.step()
+        assert here.state.code == AxisCommand.ENABLE + Progress.INIT
+        assert_valid(axes.trace)
+
+
+def test_declared_start_values_of_the_control_side_are_those_of_the_axes() -> None:
+    """D52: override and flags of homing come from the partner, not from zeros before it has spoken."""
+    with Simulation(motion()) as axes, Simulation(control()) as controller:
+        Loopback(axes, controller).step(3)
+        assert [axis.data.override for axis in axes.layer.axis] == [100.0] * 3
+        assert [axis.data.override for axis in controller.layer.axis] == [100.0] * 3
+
+
+def test_two_controllers_share_a_motion_machine() -> None:
+    maps = {"A": {"group": "axis", "objects": ["Z", "X"]}, "B": {"group": "axis", "objects": [2]}}
+    with (
+        Simulation(motion(maps)) as axes,
+        Simulation(control("Z", "X", selector=False)) as a,
+        Simulation(control("Y", selector=False)) as b,
+    ):
+        loopback = Loopback(axes, {"A": a, "B": b})
+
+        async def enable(run: MachineRun, name: str) -> None:
+            await run.layer.started()
+            run.layer.axis[name].ctrl.cmd = AxisCommand.ENABLE
+            await run.layer.axis[name].state.done(AxisCommand.ENABLE)
+
+        a.start(enable(a, "Z"))
+        b.start(enable(b, "Y"))
+        assert loopback.run(time=5.0)
+        assert [axis.enabled for axis in axes.axes.values()] == [False, True, True]
+        assert a.layer.axis["Z"].info.enabled
+        assert not a.layer.axis["X"].info.enabled
+        assert_valid(axes.trace)
+
+
+def test_a_control_side_that_stops_in_the_middle_of_a_move_lets_it_go_on() -> None:
+    with Simulation(motion()) as axes, Simulation(control()) as controller:
+        loopback = Loopback(axes, controller)
+
+        async def begin(run: MachineRun) -> None:
+            x = run.layer.axis["X"]
+            await run.layer.started()
+            x.ctrl.cmd = AxisCommand.ENABLE
+            await x.state.done(AxisCommand.ENABLE)
+            x.data.position, x.data.velocity = 300.0, 100.0
+            x.ctrl.cmd = AxisCommand.MOVE_POS
+            await run.sleep(0.5)
+
+        loopback.run(begin(controller))
+        assert 0.0 < axes.axes["X"].set_position < 300.0
+        axes.step(4000)  # the control machine is not there any more
+        assert axes.axes["X"].set_position == 300.0
+        assert axes.layer.axis["X"].state.code == AxisCommand.MOVE_POS + DONE
+        assert_valid(axes.trace)
+
+
+def test_an_exception_of_the_program_is_raised_and_time_cuts_off() -> None:
+    async def fail() -> None:
+        raise LookupError("nothing there")
+
+    async def wait(run: MachineRun) -> None:
+        await run.sleep(100.0)
+
+    with Simulation(motion()) as axes, Simulation(control()) as controller:
+        loopback = Loopback(axes, controller)
+        with pytest.raises(LookupError, match="nothing there"):
+            loopback.run(fail())
+        assert not loopback.run(wait(controller), time=0.25)
+        assert axes.tick == controller.tick
+        assert axes.time == pytest.approx(0.25 + 0.001)
+
+
+def test_reset_machines_are_wired_as_before() -> None:
+    """What was carried before the reset is not taken for known after it."""
+    with Simulation(motion()) as axes, Simulation(control()) as controller:
+        loopback = Loopback(axes, controller)
+        shown = []
+        for _ in range(2):
+            controller.layer.axis[1].ctrl.cmd = AxisCommand.ENABLE
+            loopback.step(80)
+            shown.append([axis.state.code for axis in controller.layer.axis])
+            for run in (axes, controller):
+                run.reset()
+        assert shown[0] == shown[1] == [AxisCommand.ENABLE + DONE, DONE, DONE]
+
+
+def _wrong(described: Mapping[str, Any]) -> Machine:
+    return Machine.from_dict(HEAD | {"name": "wrong", **described})
+
+
+WRONG = [
+    (motion({}), control(), ValueError, "control: the image MAPPING_AXIS_out.AxisCtrl has no partner MAPPING_AXIS_in"),
+    (
+        motion(axes="XY"),
+        control(),
+        ValueError,
+        "AxisCtrl has 12 bytes, its partner MAPPING_AXIS_in.AxisCtrl in motion 8",
+    ),
+    (
+        motion({"all": {"group": "axis", "selector": False}}),
+        control(),
+        ValueError,
+        "SelectorCtrl has no partner MAPPING_AXIS_in.SelectorCtrl in motion",
+    ),
+    (motion(base_cycle_ns=2_000_000), control(), ValueError, "base_cycle_ns: 2000000 in motion, 1000000 in control"),
+    (control(), control(), TypeError, r"control has no motion layer: its machine file needs \[layer\]"),
+    (motion(), motion(), TypeError, r"motion is no control side: its machine file needs \[control\]"),
+]
+
+
+@pytest.mark.parametrize(("one", "other", "kind", "text"), WRONG, ids=[text for *_, text in WRONG])
+def test_what_does_not_fit_is_refused_before_anything_runs(
+    one: Machine, other: Machine, kind: type[Exception], text: str
+) -> None:
+    with Simulation(one) as axes, Simulation(other) as controller, pytest.raises(kind, match=text):
+        Loopback(axes, controller)
+
+
+def test_a_client_of_the_control_side_writes_commands_and_no_states() -> None:
+    """A state is written by the layer, on either side."""
+    with Simulation(control()) as controller:
+        with pytest.raises(PermissionError, match=r"GVL_AXIS\.State is written by the layer: client can only read it"):
+            controller.symbols.write("GVL_AXIS.State[1].eState", 12, "client")
+        controller.symbols.write("GVL_AXIS.Ctrl[1].eCmd", 3, "client")
+        controller.step()
+        assert controller.areas["MAPPING_AXIS_out.AxisCtrl"].read()[:2] == b"\3\0"
