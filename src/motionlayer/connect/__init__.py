@@ -1,0 +1,1 @@
+"""Ways in from other processes and computers: they see symbols, the mailbox and the published image, nothing else."""

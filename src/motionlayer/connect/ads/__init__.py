@@ -1,0 +1,46 @@
+"""An ADS device: real ADS clients reach the symbols of a run.
+
+The protocol is code without input and output: `Connection` takes bytes of a stream and returns what they are answered
+with. Around it stands a thin server in a process of its own, which shares with the run an image of all symbols, as of
+the last finished tick, and a pipe. Reads and notifications are answered from the image, without the run; what changes
+something goes through the pipe into the mailbox of the run, takes effect in the next tick, and is acknowledged when
+that tick has been published.
+"""
+
+from motionlayer.connect.ads._bridge import CHANNEL, Bridge, Hooks, ServerFailed
+from motionlayer.connect.ads._client import Limits
+from motionlayer.connect.ads._codes import AdsError, Code
+from motionlayer.connect.ads._describe import Placed, placed, tree_of
+from motionlayer.connect.ads._frame import net_id
+from motionlayer.connect.ads._image import Status
+from motionlayer.connect.ads._inside import Act, Inside
+from motionlayer.connect.ads._plan import Contents, Plan
+from motionlayer.connect.ads._router import Access
+from motionlayer.connect.ads._service import Kind, Outcome, State, Write
+from motionlayer.connect.ads._tree import Tree, TypeNode
+
+__all__ = [
+    "CHANNEL",
+    "Access",
+    "Act",
+    "AdsError",
+    "Bridge",
+    "Code",
+    "Contents",
+    "Hooks",
+    "Inside",
+    "Kind",
+    "Limits",
+    "Outcome",
+    "Placed",
+    "Plan",
+    "ServerFailed",
+    "State",
+    "Status",
+    "Tree",
+    "TypeNode",
+    "Write",
+    "net_id",
+    "placed",
+    "tree_of",
+]

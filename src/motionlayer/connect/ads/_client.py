@@ -1,0 +1,70 @@
+"""`Client`: one AMS address on a connection, and what it holds."""
+
+from dataclasses import dataclass, field
+
+from motionlayer.connect.ads._codes import AdsError, Code
+from motionlayer.connect.ads._frame import Address
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a server holds for its clients, at most.
+
+    Attributes:
+        connections: of all clients together.
+        addresses: AMS addresses that ask through a connection, and AMS ports that it registers.
+        handles: of a client.
+        all_handles: of all clients together.
+        notifications: of a client; the vendor advises 550.
+        all_notifications: of all clients together.
+        watched: bytes of a client's notifications, in all.
+        waiting: requests of a connection that wait for the run.
+        unsent: bytes for a connection that does not take them; it is closed then.
+        silence: seconds for the first frame of a connection, and for the rest of one that has begun; it is closed then.
+    """
+
+    connections: int = 64
+    addresses: int = 64
+    handles: int = 10_000
+    all_handles: int = 100_000
+    notifications: int = 2_000
+    all_notifications: int = 20_000
+    watched: int = 1024 * 1024
+    waiting: int = 1_000
+    unsent: int = 16 * 1024 * 1024
+    silence: float = 10.0
+
+
+@dataclass(eq=False)
+class Client:
+    """Who asks.
+
+    Attributes:
+        address: AMS address.
+        host: where its connection comes from.
+        read_only: it may change nothing.
+        limits: what it may hold.
+        handles: its handles.
+        notifications: its notifications.
+        watched: bytes of these.
+    """
+
+    address: Address
+    host: str
+    read_only: bool = False
+    limits: Limits = field(default_factory=Limits)
+    handles: set[int] = field(default_factory=set)
+    notifications: set[int] = field(default_factory=set)
+    watched: int = 0
+
+    def require_writing(self) -> None:
+        """Refuse a client that may change nothing.
+
+        Raises:
+            AdsError: it may not (0x704).
+        """
+        if self.read_only:
+            raise AdsError(Code.NOT_PERMITTED, f"{self} may only read")
+
+    def __str__(self) -> str:
+        return f"{self.address} at {self.host}"

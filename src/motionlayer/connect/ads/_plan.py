@@ -1,0 +1,41 @@
+"""What a server is told by the run: `Plan` when it begins, `Contents` when all symbols are known. Pure data."""
+
+from dataclasses import dataclass, field
+
+from motionlayer.connect.ads._client import Limits
+from motionlayer.connect.ads._router import Access
+from motionlayer.connect.ads._tree import Tree
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Where a server is, and whom it serves.
+
+    Attributes:
+        host: address to listen on.
+        port: TCP port; 0: a free one.
+        net_id: of the server.
+        cycle_ns: of the run.
+        access: who may do what.
+        limits: of clients.
+    """
+
+    host: str
+    port: int
+    net_id: bytes
+    cycle_ns: int
+    access: Access = field(default_factory=Access)
+    limits: Limits = field(default_factory=Limits)
+
+
+@dataclass(frozen=True)
+class Contents:
+    """What it serves; known when the first tick has ended, since programs may declare symbols in it.
+
+    Attributes:
+        tree: symbols and types.
+        size: bytes of the shared memory.
+    """
+
+    tree: Tree
+    size: int

@@ -1,0 +1,98 @@
+"""`Stream`: one TCP connection of the server, a thin shell around `Connection`."""
+
+import asyncio
+import socket
+from typing import Final
+
+from motionlayer.connect.ads._connection import Connection
+from motionlayer.connect.ads._frame import FrameError
+from motionlayer.connect.ads._router import Router
+
+KEEPALIVE: Final = (
+    (socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1),
+    (socket.IPPROTO_TCP, socket.TCP_KEEPIDLE, 30),
+    (socket.IPPROTO_TCP, socket.TCP_KEEPINTVL, 10),
+    (socket.IPPROTO_TCP, socket.TCP_KEEPCNT, 3),
+    (socket.IPPROTO_TCP, socket.TCP_NODELAY, 1),
+)
+"""A peer that has vanished is noticed after a minute; what is sent goes out at once."""
+
+
+class Stream(asyncio.Protocol):
+    """One TCP connection.
+
+    Args:
+        router: what all connections share.
+        streams: all that are open; this one is added and removed.
+    """
+
+    def __init__(self, router: Router, streams: "set[Stream]") -> None:
+        self._router = router
+        self._streams = streams
+        self._transport: asyncio.Transport | None = None
+        self._connection: Connection | None = None
+        self._host = ""
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Take the connection, or close it at once."""
+        assert isinstance(transport, asyncio.Transport)
+        self._host = transport.get_extra_info("peername")[0]
+        full = len(self._streams) >= self._router.limits.connections
+        if full or not self._router.access.admits(self._host):
+            self._router.tell(self._host, "too many connections" if full else "its address is not allowed to connect")
+            transport.abort()
+            return
+        for level, option, value in KEEPALIVE:
+            transport.get_extra_info("socket").setsockopt(level, option, value)
+        self._transport = transport
+        self._streams.add(self)
+        self._connection = Connection(self._router, self._host, self._send)
+        self._watch(self._connection)
+
+    def data_received(self, data: bytes) -> None:
+        """Answer what has come."""
+        if self._connection is None or self._transport is None:
+            return
+        try:
+            self._connection.receive(data)
+        except FrameError as error:
+            self._drop(str(error))
+        else:
+            if self._connection.closing:
+                self._transport.close()
+
+    def connection_lost(self, _error: Exception | None) -> None:
+        """Release what the connection held."""
+        self._streams.discard(self)
+        self._transport = None
+        if self._connection is not None:
+            self._connection.closed()
+
+    def close(self) -> None:
+        """Close the connection; the server ends."""
+        if self._transport is not None:
+            self._transport.abort()
+
+    def _send(self, data: bytes) -> None:
+        transport = self._transport
+        if transport is None or transport.is_closing():
+            return
+        transport.write(data)
+        if transport.get_write_buffer_size() > self._router.limits.unsent:
+            self._drop("takes nothing that is sent to it, and is disconnected")
+
+    def _drop(self, why: str) -> None:
+        self._router.tell(self._host, why)
+        if self._connection is not None:
+            self._connection.broken = True
+        if self._transport is not None:
+            self._transport.abort()
+
+    def _watch(self, connection: Connection) -> None:
+        """Look now and then whether the connection still says something that can be understood."""
+        if self._transport is None:
+            return
+        if connection.stuck():
+            self._drop("sends no complete frame, and is disconnected")
+        else:
+            asyncio.get_running_loop().call_later(self._router.limits.silence, self._watch, connection)
