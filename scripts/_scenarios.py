@@ -157,7 +157,7 @@ SCENARIOS: Final[dict[str, Scenario]] = {
         curves=(SET_P, SET_V),
     ),
     "MC_MoveContinuousRelative": Scenario(
-        "The same from where the axis is.",
+        "At 150 u/s towards a place 60 behind the start, faster in time to pass it at 300 u/s, and on with that.",
         {"move": fb.MC_MoveContinuousRelative, "halt": fb.MC_Halt},
         ((10, "move", go(Distance=-60.0, EndVelocity=300.0, Velocity=150.0)), (600, "halt", go())),
         800,

@@ -1,7 +1,7 @@
-"""Timing diagrams as SVG: lanes of TRUE and FALSE, and curves below, over one time axis."""
+"""Timing diagrams as SVG: lanes of TRUE and FALSE, bands of values, and curves below, over one time axis."""
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from typing import Final, NamedTuple
 
@@ -14,6 +14,9 @@ CURVE: Final = 84
 GAP: Final = 12
 LEAST: Final = 2.5
 """Pixels that a pulse of one call is wide at least, so that it can be seen."""
+
+LETTER: Final = 6.8
+"""Pixels that a letter in a band takes."""
 
 FINE: Final = 1.5
 """Pixels between two points of a curve."""
@@ -49,6 +52,24 @@ class Lane(NamedTuple):
     values: Sequence[bool]
 
 
+class Band(NamedTuple):
+    """A signal with values that have names.
+
+    Attributes:
+        group: as of a lane.
+        name: of the signal.
+        kind: as of a lane.
+        values: per cycle; nothing is drawn where one is empty.
+        marks: kinds of values that have one of their own.
+    """
+
+    group: str
+    name: str
+    kind: str
+    values: Sequence[str]
+    marks: Mapping[str, str] = {}
+
+
 class Curve(NamedTuple):
     """A number over time.
 
@@ -61,7 +82,7 @@ class Curve(NamedTuple):
     values: Sequence[float]
 
 
-def diagram(title: str, lanes: Sequence[Lane], curves: Sequence[Curve], cycle_ms: float) -> str:
+def diagram(title: str, lanes: Sequence[Lane | Band], curves: Sequence[Curve], cycle_ms: float) -> str:
     """Return the picture; all signals have a value per cycle."""
     count = len((*lanes, *curves)[0].values)
     step = (WIDTH - LEFT - RIGHT) / count
@@ -73,7 +94,7 @@ def diagram(title: str, lanes: Sequence[Lane], curves: Sequence[Curve], cycle_ms
             body.append(f'<text class="group" x="12" y="{y + 4:g}">{escape(lane.group)}</text>')
             y += 14
             group = lane.group
-        body += _lane(lane, y, step)
+        body += _band(lane, y, step) if isinstance(lane, Band) else _lane(lane, y, step)
         y += LANE
     for curve in curves:
         y += GAP
@@ -90,7 +111,7 @@ def diagram(title: str, lanes: Sequence[Lane], curves: Sequence[Curve], cycle_ms
     )
 
 
-def _changes(values: Sequence[bool]) -> list[int]:
+def _changes(values: Sequence[object]) -> list[int]:
     return [k for k in range(1, len(values)) if values[k] != values[k - 1]]
 
 
@@ -106,6 +127,21 @@ def _lane(lane: Lane, y: float, step: float) -> Iterator[str]:
         path.append(f"L{left:.1f} {level:g}L{right:.1f} {level:g}")
     path.append(f"L{WIDTH - RIGHT} {low:g}")
     yield f'<path class="{lane.kind}" d="{"".join(path)}"/>'
+
+
+def _band(band: Band, y: float, step: float) -> Iterator[str]:
+    """Yield name and boxes of a band whose top is at y; a value stands in its box where there is room for it."""
+    low = y + HIGH + 2
+    yield f'<text class="name" x="{LEFT - 12}" y="{low - 3:g}">{escape(band.name)}</text>'
+    for start, end in itertools.pairwise([0, *_changes(band.values), len(band.values)]):
+        value, left, right = band.values[start], LEFT + start * step, LEFT + end * step
+        if not value:
+            continue
+        kind = band.marks.get(value, band.kind)
+        yield f'<path class="{kind}" d="M{left:.1f} {y:g}H{right:.1f}V{low:g}H{left:.1f}Z"/>'
+        if right - left > LETTER * len(value) + 4:
+            middle = (left + right) / 2
+            yield f'<text class="small" x="{middle:.1f}" y="{low - 4:g}" text-anchor="middle">{escape(value)}</text>'
 
 
 def _curve(curve: Curve, y: float, step: float) -> Iterator[str]:

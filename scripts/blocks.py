@@ -180,6 +180,7 @@ def _page(name: str, block: type[fb.Block], scenario: Scenario | None) -> Iterat
         yield f"| `{one}` | {entry.type} | {_default(entry.default)} | {entry.text} |"
     yield from ["", "## Outputs", "", "| name | type | meaning |", "|---|---|---|"]
     for one, text in _outputs(made).items():
+        assert "|" not in text, f"{name}.{one}: a bar would end the cell of the table"
         value = getattr(made, one)
         yield f"| `{one}` | {TYPES.get(type(value), type(value).__name__)} | {text} |"
     for entry in block.INPUTS.values():

@@ -31,7 +31,9 @@ SHORT = {
     "planning": BLOCK // 20 if SLOW else examples(4 * BLOCK),
     "life": 2 if SLOW else examples(40),
     "blocks": 1 if SLOW else 3,
+    "contract": 1 if SLOW else examples(20),
     "mutation": 5 if SLOW else examples(4 * BATCH),
+    "ads": 200,
 }
 
 
@@ -42,7 +44,9 @@ def test_the_short_form_finds_nothing(name: str) -> None:
         assert campaign.run(SEED, range(start, min(start + campaign.batch, SHORT[name]))) == []
 
 
-@pytest.mark.parametrize(("name", "case"), [("planning", 1234), ("life", 5), ("blocks", 7), ("mutation", 57)])
+@pytest.mark.parametrize(
+    ("name", "case"), [("planning", 1234), ("life", 5), ("blocks", 7), ("contract", 3), ("mutation", 57), ("ads", 3)]
+)
 def test_a_case_is_made_from_seed_and_number_alone(name: str, case: int) -> None:
     campaign = CAMPAIGNS[name]
     text = campaign.describe(SEED, case)
@@ -198,7 +202,11 @@ def test_lives_that_broke_a_rule_once(file: Path) -> None:
     the software limit comes too near. Since goals, brakes and joints are judged: a jog to a multiple in the tick of a
     shift, a command that was replaced in the tick it became active in, an override that rises before an end velocity
     that could not be braked, a joint on the edge of what can be passed, a turn that comes back just as far, a way that
-    begins with a sliver, a drive that is not heard from the beginning.
+    begins with a sliver, a drive that is not heard from the beginning. A joint that cannot be rested before any more
+    when the override changes, power that comes back while a brake runs, a homing and a shift in one tick, a shift
+    behind a passed target, a target on a software limit, a start outside that begins with a sliver. An override that
+    rises when a hold has carried the axis too near to a joint for its acceleration to be taken back, and
+    one that changes in the tick in which an error ends a motion at rest.
     """
     data = json.loads(file.read_text())
     assert violations(*live(Life(data["machine"], from_data(data["parts"])))) == []

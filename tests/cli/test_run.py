@@ -43,6 +43,20 @@ def test_messages_are_counted_and_the_last_ones_shown(machine: Path) -> None:
     assert "messages    0 errors, 1 warning:" in call("run", machine, *program("refused")).stdout.splitlines()
 
 
+def test_a_message_of_the_motion_layer_is_told_with_its_subdevice_and_number(machine: Path) -> None:
+    machine.write_text(MACHINE + "[layer]\n", encoding="utf-8")
+    source = """
+async def main(run):
+    await run.layer.started()
+    run.layer.axis[1].data.velocity = 10.0
+    run.layer.axis[1].ctrl.cmd = 12
+    await run.sleep(0.005)
+"""
+    machine.with_name("moves.py").write_text(source, encoding="utf-8")
+    lines = call("run", machine, "--program", machine.with_name("moves.py")).stdout.splitlines()
+    assert any(line.endswith("error  GVL_AXIS.Ctrl[1]: fbMovePtP PROGRESS_ERROR [0x4260]") for line in lines), lines
+
+
 def test_a_time_ends_a_run_with_and_without_programs(machine: Path) -> None:
     done = call("run", machine, "--time", 0.25, "--trace", "a.trace")
     assert done.exit_code == ExitCode.OK

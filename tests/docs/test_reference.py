@@ -8,6 +8,7 @@ from types import ModuleType
 
 import pytest
 
+import motionlayer.layer
 import motionlayer.machine
 import motionlayer.record
 import motionlayer.runtime
@@ -50,7 +51,14 @@ def known() -> dict[str, set[str]]:
         command = axis.enable()
         run.run(time=0.1)
     trace = run.trace
-    packages = (motionlayer, motionlayer.machine, motionlayer.record, motionlayer.runtime, builtins)
+    packages = (
+        motionlayer,
+        motionlayer.layer,
+        motionlayer.machine,
+        motionlayer.record,
+        motionlayer.runtime,
+        builtins,
+    )
     return {
         "Axis": set(dir(axis)),
         "Command": {*dir(command), *dir(program), *dir(cyclic)},

@@ -44,7 +44,9 @@ def set_lines(slide: str) -> list[str]:
     lines = []
     for record in slide.split("eMessageInfo\n")[1:]:
         (time,) = re.findall(r"\d{4}-\d\d-\d\d-\S+", record)
-        ((who, what, progress),) = re.findall(r"(ExampleEvalMachine) ?: ?(TRANSPORT [A-Z ]+): (PROGRESS [A-Z]+)", record)
+        ((who, what, progress),) = re.findall(
+            r"(ExampleEvalMachine) ?: ?(TRANSPORT [A-Z ]+): (PROGRESS [A-Z]+)", record
+        )
         assert re.search(r"General ID 0\s", record)
         assert re.search(r"General 30\s", record)
         text = f"{who}: {what.replace(' ', '_')}: {progress.replace(' ', '_')}"
@@ -87,3 +89,14 @@ def test_the_steps_are_those_of_the_axes(ran: tuple[Simulation, list[str]]) -> N
     assert trace["Stopper.set_position"][-1] == -37.0
     assert trace["Belt.set_velocity"][-1] == 0.0
     assert abs(trace["Belt.set_velocity"][300] - 200.0) < 1e-9
+
+
+def test_the_page_shows_the_table_and_the_lines() -> None:
+    page = (FOLDER.parents[1] / "docs" / "namespaces.md").read_text(encoding="utf-8")
+    rows = [
+        line for line in (FOLDER / "transport.py").read_text(encoding="utf-8").splitlines() if "Transition(" in line
+    ]
+    assert len(rows) == 9
+    assert "\n".join(rows) in page
+    for line in set_lines(SLIDE):
+        assert f"# → {line}".replace("\t", " ") in page

@@ -8,6 +8,7 @@ import pytest
 
 from motionlayer.bench.campaign._observer import Observer
 from motionlayer.command import ErrorId
+from motionlayer.event import Kind
 from motionlayer.fb import (
     PARAMETERS,
     E_ReadMode,
@@ -120,6 +121,43 @@ def test_nothing_goes_beyond_the_machine_description(number: int, beyond: float)
     before = read(rig, number)
     assert write(rig, number, beyond) == 0x4B06
     assert read(rig, number) == before
+
+
+@pytest.mark.parametrize(
+    ("number", "told"),
+    [
+        (P.AxisMaxVelocity, "(AxisMaxVelocity = 1000000.0, allowed: 0.0 < x <= 500.0 °/s)"),
+        (P.MaxJerk, "(MaxJerk = 1000000.0, allowed: 0.0 < x <= 100000.0 °/s³)"),
+        (P.AxisMaxPosLagFilterTime, "(AxisMaxPosLagFilterTime = 1000000.0, allowed: 0.0 <= x <= 0.02 s)"),
+    ],
+)
+def test_a_refusal_names_value_and_range_in_the_unit_of_the_axis(number: int, told: str) -> None:
+    rig = Rig(monitor=MONITOR, unit="°")
+    assert write(rig, number, 1e6) == ErrorId.PARAMETER
+    (refused,) = (event.text for event in rig.run.events.last() if event.kind is Kind.REFUSED)
+    assert told in refused
+
+
+@pytest.mark.parametrize(
+    ("kind", "number", "told"),
+    [
+        (
+            MC_ReadParameter,
+            P.EnableLimitPos,
+            "(ParameterNumber = 4, allowed: the number of a parameter that is an LREAL)",
+        ),
+        (MC_ReadBoolParameter, 9999, "(ParameterNumber = 9999, allowed: the number of a parameter that is a BOOL)"),
+    ],
+)
+def test_a_parameter_that_cannot_be_read_is_told_once(kind: type[Any], number: int, told: str) -> None:
+    rig = Rig()
+    block = kind(rig.ref)
+    rig.cycle(5, lambda: block(Enable=True, ParameterNumber=number))
+    assert (block.Valid, block.ErrorID) == (False, 0x4B05)
+    rig.check()
+    refused = [event.text for event in rig.run.trace.events if event.kind is Kind.REFUSED]
+    assert len(refused) == 1
+    assert told in refused[0]
 
 
 def test_a_lower_velocity_holds_for_the_next_command_and_takes_the_default_along() -> None:

@@ -1,6 +1,7 @@
 """MC_Power, MC_Reset and MC_SetOverride."""
 
 import math
+from functools import partial
 
 import pytest
 
@@ -95,6 +96,21 @@ def test_a_bad_override_changes_nothing(value: float) -> None:
     assert (override.Enabled, override.ErrorID) == (False, ErrorId.PARAMETER) if value != 1.0 else True
     rig.cycle(1, lambda: rig.power[0](Override=50.0))
     assert (rig.power[0].Error, rig.ref.axis.override) == (False, 0.5)
+
+
+def test_a_bad_override_is_told_once_and_again_after_a_good_one() -> None:
+    rig = Rig()
+    override = MC_SetOverride(rig.ref)
+    for value in (1.5, 0.5, 1.5):
+        rig.cycle(5, partial(rig.power[0], Override=100.0 * value))
+    rig.cycle(1, lambda: rig.power[0](Override=50.0))
+    for value in (-0.5, 0.5, -0.5):
+        rig.cycle(5, partial(override, Enable=True, VelFactor=value))
+    rig.check()
+    refused = [event for event in rig.run.trace.events if event.kind is Kind.REFUSED]
+    assert [event.code for event in refused] == [ErrorId.PARAMETER] * 4
+    assert "(Override = 150.0, allowed: 0 to 100 %)" in refused[0].text
+    assert "(VelFactor = -0.5, allowed: 0 to 1)" in refused[2].text
 
 
 def test_the_override_scales_velocity_and_holds_at_zero() -> None:

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from motionlayer.iec import UINT, InputArray, OutputArray
-from tests.iec.declared import E_AXIS_CTRL, AxisCommand, AxisCtrl, Everything, MoveData
+from motionlayer.iec import UINT, InputArray, OutputArray, Struct
+from tests.iec.declared import E_AXIS_CTRL, AxisCommand, AxisCtrl, Everything, MoveData, Overlay
 
 SIZE = AxisCtrl.type.size
 
@@ -47,6 +47,21 @@ def test_an_element_is_assigned_as_a_whole() -> None:
     assert array[2] is kept
     assert kept.cmd is AxisCommand.MOVE_POS
     assert array.take() == [2]
+
+
+@pytest.mark.parametrize("cls", [AxisCtrl, MoveData, Everything, Overlay])
+@given(data=st.data())
+def test_several_elements_take_on_their_bytes_as_each_alone_does(cls: type[Struct], data: st.DataObject) -> None:
+    size = cls.type.size
+    array = InputArray(cls, -1, 3, "GVL.Several")
+    elements, before = list(array), [bytes(one) for one in array]
+    places = data.draw(st.lists(st.integers(0, 4), unique=True))
+    rows = data.draw(st.binary(min_size=len(places) * size, max_size=len(places) * size))
+    alone = {place: bytes(cls.from_bytes(rows[at * size : (at + 1) * size])) for at, place in enumerate(places)}
+    array.decode(places, rows)
+    assert [bytes(one) for one in array] == [alone.get(place, before[place]) for place in range(5)]
+    assert all(one is kept for one, kept in zip(array, elements, strict=True))
+    assert array.take() == [place - 1 for place in places]
 
 
 @given(st.data())

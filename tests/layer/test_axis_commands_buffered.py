@@ -3,6 +3,7 @@
 import pytest
 
 from motionlayer.command import ErrorId
+from motionlayer.event import Level, Subdevice
 from motionlayer.layer import AxisCommand, Progress
 from motionlayer.layer.types import BufferMode
 from tests.layer.rig import Rig, aim, place, shown
@@ -104,6 +105,35 @@ def test_d11_changes_while_a_move_waits_are_taken_up_when_the_buffer_is_free() -
     rig.until(lambda: place(rig) == 120.0)
     assert rig.x.state.split().command == C.MOVE_BUFFER
     assert rig.x.state.split().progress != P.ERROR
+    rig.check()
+
+
+@pytest.mark.parametrize(
+    ("command", "part", "level", "step"),
+    [
+        (C.MOVE_BUFFER, Subdevice.fbMoveAbsolute1, Level.VERBOSE, "PREPARE"),
+        (C.MOVE_BUFFER_VELO, Subdevice.fbMoveVelocity1, Level.ERROR, "WORKING"),
+    ],
+)
+def test_a_motion_that_somebody_else_replaces_is_told_once_and_the_next_one_is_joined(
+    command: AxisCommand, part: Subdevice, level: Level, step: str
+) -> None:
+    rig = Rig().ready()
+    rig.x.options.buffer_mode = BufferMode.BUFFERED
+    aim(rig, 100.0, 50.0)
+    rig.drop(command)
+    axis = rig.run.axes["X"]
+    rig.until(lambda: axis.set_velocity == 50.0)
+    other = axis.move_absolute(-50.0, velocity=200.0)
+    rig.cycle(20)
+    told = [event.level for event in rig.messages if event.subdevice == part and "aborted" in event.text]
+    assert told == [level]
+    assert rig.texts(part)[-1] == f"FB aborted: PROGRESS_{step}"
+    assert rig.x.state.split() == (command, P[step]), "the job is under way as before"
+    aim(rig, 120.0, 60.0)
+    rig.until(lambda: other.done)
+    rig.until(lambda: axis.set_velocity == 60.0)
+    rig.do(C.STOP)
     rig.check()
 
 

@@ -52,9 +52,9 @@ def test_d07_idle_counts_a_failed_reset_as_a_retry() -> None:
     rig.run.inject("X", Fault("drive_error", duration=5.0), rig.run.tick + 1)
     rig.cycle(3)
     states = rig.do(C.IDLE)
-    assert states == [P.INIT, *[P.BUSY, P.PREPARE] * 4, P.BUSY, P.ERROR]
-    assert rig.texts(Subdevice.AxisIdle).count("AXIS_IDLE error axis enable: 1") == 5
-    assert rig.texts(Subdevice.AxisIdle)[1::2] == [f"AXIS_IDLE retry: {n}" for n in (1, 2, 3, 4)]
+    assert states == [P.INIT, *[P.BUSY, P.PREPARE] * 5, P.BUSY, P.ERROR]
+    assert rig.texts(Subdevice.AxisIdle).count("AXIS_IDLE error axis enable: 1") == 6
+    assert rig.texts(Subdevice.AxisIdle)[1::2] == [f"AXIS_IDLE retry: {n}" for n in (1, 2, 3, 4, 5)]
     assert rig.x.info.timeout
     rig.check()
 

@@ -136,10 +136,21 @@ def test_an_image_of_another_size_holds_up_its_program_with_one_message(size: in
     assert message.level is Level.ERROR
     told = f"AxisCtrl CHECK_ERROR: {size} bytes attached, must be 12; nothing is copied"
     assert message.text == f"MAPPING_AXIS_in.sMappingCheck: {told}"
+    assert list(program.images[0].sizes) == [size, 12], "szAxisCtrl tells the size that is wrong"
     mapped.mapping.detach("MAPPING_AXIS_in.AxisCtrl")
     mapped.run.step(1)
     assert program.check.text == "CHECK_DONE"
+    assert list(program.images[0].sizes) == [12, 12]
     assert mapped.arrays["GVL_AXIS.Data"][1].override == 0.0
+
+
+def test_another_wrong_size_is_another_result() -> None:
+    mapped = Mapped(ALL)
+    for size in (11, 13):
+        mapped.mapping.attach("MAPPING_AXIS_in.AxisCtrl", bytearray(size), written=True)
+        mapped.run.step(3)
+        mapped.mapping.detach("MAPPING_AXIS_in.AxisCtrl")
+    assert [event.text.split()[3] for event in mapped.messages] == ["11", "13"]
 
 
 @pytest.mark.parametrize("image", [row.image for row in OUTPUTS if row.group in {"axis", "selector"}])

@@ -38,7 +38,7 @@ def passed(run: Simulation, level: Level, device: int = AXIS) -> bool:
 def test_the_level_of_all_is_that_of_the_machine_file(
     tmp_path: Path, layer: dict[str, bool], log: str | None, shown: int
 ) -> None:
-    with opened(tmp_path if log else None, layer=layer, **({"level": log} if log else {})) as run:
+    with opened(tmp_path, layer=layer, level=log) if log else opened(layer=layer) as run:
         run.step()
         assert (read(run, "MessageLevel"), read(run, "MessageLevelAxisPtp[1]")) == (shown, Level.VERBOSE)
         run.step(50)
@@ -75,6 +75,16 @@ def test_a_level_that_a_client_gives_during_the_start_up_stays() -> None:
     run.step(5000)
     assert (read(run, "MessageLevelAxisPtp[1]"), read(run, "MessageLevelAxisPtp[2]")) == (Level.VERBOSE, Level.ERROR)
     assert not passed(run, Level.INFO, SECOND)
+
+
+def test_levels_of_one_object_and_of_all_may_be_written_in_one_tick() -> None:
+    run = started(axes=2)
+    write(run, "MessageLevel", Level.WARNING)
+    write(run, "MessageLevelAxisPtp[2]", Level.VERBOSE)
+    run.step()
+    assert (read(run, "MessageLevelAxisPtp[1]"), read(run, "MessageLevelAxisPtp[2]")) == (Level.WARNING, Level.VERBOSE)
+    assert passed(run, Level.VERBOSE, SECOND)
+    assert not passed(run, Level.VERBOSE)
 
 
 @pytest.mark.parametrize(("asked", "holds"), [(-3, Level.ERROR), (9, Level.SENTIENT)])

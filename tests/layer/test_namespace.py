@@ -36,6 +36,8 @@ class Command(enum.IntEnum):
     FILL = 30
     EMPTY = 31
     FAIL = 32
+    BROKEN = 33
+    UNPREPARED = 39
     LATER = 40
 
 
@@ -63,6 +65,10 @@ def overflow(job: Tank) -> None:
     job.error = 7
 
 
+def divide(job: Tank) -> bool:
+    return 1.0 / job.ctrl.level > 0.0
+
+
 JOBS: dict[int, JobTable[Any]] = {
     Command.FILL: JobTable[Tank](
         "FILL",
@@ -73,6 +79,8 @@ JOBS: dict[int, JobTable[Any]] = {
         ],
     ),
     Command.EMPTY: JobTable[Tank]("EMPTY", [Transition(P.INIT, a_call_later, nothing, P.DONE)]),
+    Command.BROKEN: JobTable[Tank]("BROKEN", [Transition(P.INIT, divide, nothing, P.DONE)]),
+    Command.UNPREPARED: JobTable[Tank]("UNPREPARED", [Transition(P.INIT, always, nothing, P.DONE)], prepare=divide),
     Command.FAIL: JobTable[Tank]("FAIL", [Transition(P.INIT, always, overflow, P.ERROR)]),
 }
 TANK = Namespace("GVL_TANK", TankCtrl, TankState, JOBS, source="Brewery")
@@ -117,6 +125,42 @@ def test_a_command_is_repeated_by_way_of_null() -> None:
         assert codes(run, one, 1) == [10000]
 
 
+def test_an_exception_ends_the_job_and_nothing_else() -> None:
+    run, one = tank()
+    one.ctrl.cmd = Command.BROKEN
+    assert codes(run, one, 3) == [1033, 9033, 9033]
+    assert one.state.view.error_id == ErrorId.PROGRAM_FAILED
+    *_, failed, shown = told(run)
+    assert failed[:2] == (Level.ERROR, ErrorId.PROGRAM_FAILED)
+    assert failed[2].startswith("TANK_BROKEN: ZeroDivisionError: float division by zero (test_namespace.py:")
+    assert failed[2].endswith(" in divide)")
+    assert shown == (Level.ERROR, ErrorId.PROGRAM_FAILED, "TANK_BROKEN: PROGRESS_ERROR")
+    one.ctrl.level, one.ctrl.cmd = 1.0, Command.NULL
+    run.step()
+    one.ctrl.cmd = Command.BROKEN
+    assert codes(run, one, 2) == [1033, 10033]
+
+
+@pytest.mark.parametrize("before", [Command.NULL, Command.FAIL])
+def test_an_exception_of_the_preparation_is_answered_in_the_same_cycle(before: Command) -> None:
+    run, one = tank()
+    one.ctrl.cmd = before
+    run.step(5)
+    one.ctrl.cmd = Command.UNPREPARED
+    assert codes(run, one, 3) == [9039, 9039, 9039]
+    assert one.state.view.error_id == ErrorId.PROGRAM_FAILED
+    one.ctrl.level, one.ctrl.cmd = 1.0, Command.NULL
+    run.step()
+    one.ctrl.cmd = Command.UNPREPARED
+    assert codes(run, one, 2) == [1039, 10039]
+
+
+@pytest.mark.parametrize("name", ["", "1T", "GVL TANK", "GVL_AXIS.Ctrl", "GVL_TÄNK"])
+def test_the_name_of_a_namespace_is_one_identifier(name: str) -> None:
+    with pytest.raises(ValueError, match=r"letters, digits and underscores"):
+        Namespace(name, TankCtrl, TankState, JOBS)
+
+
 def test_another_command_takes_the_place_of_one_that_is_under_way() -> None:
     run, one = tank()
     one.ctrl.cmd = Command.FILL
@@ -140,7 +184,7 @@ def test_what_does_not_exist_is_answered_as_by_an_axis(command: int, code: int) 
     run, one = tank()
     one.ctrl.cmd = command
     assert codes(run, one, 2) == [code, code]
-    assert one.state.view.error_id == ErrorId.COMMAND_NOT_PERMITTED
+    assert one.state.view.error_id == ErrorId.FUNCTION_UNSUPPORTED
 
 
 def test_every_progress_is_a_line() -> None:
@@ -161,7 +205,7 @@ def test_every_progress_is_a_line() -> None:
         (Level.ERROR, 7, "TANK_FAIL: PROGRESS_ERROR"),
         (Level.INFO, 40, "TANK_LATER: PROGRESS_NOT_EXIST"),
         (Level.ERROR, 77, "77: PROGRESS_INVALID"),
-        (Level.ERROR, ErrorId.COMMAND_NOT_PERMITTED, "77: PROGRESS_ERROR"),
+        (Level.ERROR, ErrorId.FUNCTION_UNSUPPORTED, "77: PROGRESS_ERROR"),
     ]
 
 
@@ -256,7 +300,7 @@ def test_a_control_side_has_them_too() -> None:
 
 
 @settings(max_examples=examples(40), deadline=None)
-@given(st.lists(st.tuples(st.sampled_from([0, 30, 31, 32, 40, 77]), st.integers(1, 9)), max_size=12))
+@given(st.lists(st.tuples(st.sampled_from([0, 30, 31, 32, 33, 40, 77]), st.integers(1, 9)), max_size=12))
 def test_the_state_always_speaks_of_the_command_of_the_same_cycle(dropped: list[tuple[int, int]]) -> None:
     run, one = tank()
     run.step()
@@ -281,14 +325,21 @@ class Narrow(Struct, iec="ST_NARROW"):
     state = Field("eState", USINT)
 
 
-def commands(**members: int) -> type[Struct]:
-    """Return a structure with a command field of these commands."""
-    kind = Enumeration("E_OTHER", UINT, enum.IntEnum("Other", members))
+class Far(enum.IntEnum):
+    NULL = 0
+    FAR = 1000
 
-    class OtherCtrl(Struct, iec="ST_OTHER_CTRL"):
-        cmd = Field("eCmd", kind)
 
-    return OtherCtrl
+class Zeroless(enum.IntEnum):
+    GO = 1
+
+
+class FarCtrl(Struct, iec="ST_FAR_CTRL"):
+    cmd = Field("eCmd", Enumeration("E_FAR", UINT, Far))
+
+
+class ZerolessCtrl(Struct, iec="ST_ZEROLESS_CTRL"):
+    cmd = Field("eCmd", Enumeration("E_ZEROLESS", UINT, Zeroless))
 
 
 @pytest.mark.parametrize(
@@ -298,19 +349,25 @@ def commands(**members: int) -> type[Struct]:
         (TankCtrl, Bare, {}, TypeError, "GVL_TANK: Bare needs a member `state` of 16 bits or more, as UINT"),
         (TankCtrl, Narrow, {}, TypeError, "GVL_TANK: Narrow needs a member `state` of 16 bits or more, as UINT"),
         (
-            commands(NULL=0, FAR=1000),
+            FarCtrl,
             TankState,
             {},
             ValueError,
             "GVL_TANK: FAR = 1000, allowed: 0 to 999, so that a state tells command and progress",
         ),
-        (commands(GO=1), TankState, {}, ValueError, "GVL_TANK: E_OTHER needs a member 0 that is no command, as NULL = 0"),
+        (
+            ZerolessCtrl,
+            TankState,
+            {},
+            ValueError,
+            "GVL_TANK: E_ZEROLESS needs a member 0 that is no command, as NULL = 0",
+        ),
         (
             TankCtrl,
             TankState,
-            {33: JOBS[30]},
+            {34: JOBS[30]},
             ValueError,
-            "GVL_TANK: there is a job for 33, which is no command of E_TANK_CTRL",
+            "GVL_TANK: there is a job for 34, which is no command of E_TANK_CTRL",
         ),
     ],
 )

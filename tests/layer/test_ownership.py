@@ -1,5 +1,6 @@
 """One owner of every element that clients write; what the other side hears of it."""
 
+from operator import attrgetter
 from typing import Any
 
 import pytest
@@ -10,6 +11,7 @@ from motionlayer.layer._inputs import overwrite
 from motionlayer.layer._mapping import MapOptions
 from motionlayer.layer.types import AxisCommand, MoveData
 from tests.layer.mapped import Mapped
+from tests.layer.rig import Rig
 
 A = MapOptions("A", "axis", (1, 3))
 WAY_OUT = "let the controller write the image, or take the object out of [layer.map]"
@@ -105,6 +107,16 @@ def test_a_program_that_writes_a_command_twice_or_in_another_tick_than_others_is
     work("two", 2)
     mapped.run.step(4)
     assert mapped.warnings == []
+
+
+@pytest.mark.parametrize("of", ["state.view", "info", "nc_parameter_out"])
+def test_a_program_cannot_write_what_the_layer_writes(of: str) -> None:
+    rig = Rig()
+    shown: Any = attrgetter(of)(rig.x)
+    before = bytes(shown)
+    with pytest.raises(PermissionError, match=f"{shown.type.name}: this memory is read-only"):
+        setattr(shown, shown.type.fields[0].attribute, shown.type.fields[0].type.initial())
+    assert bytes(shown) == before
 
 
 def test_two_clients_in_a_tick_are_named_and_data_may_come_from_both() -> None:

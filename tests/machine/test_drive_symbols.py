@@ -3,13 +3,13 @@
 from typing import Any
 
 import pytest
+from tests.machines import LINEAR
 
 from motionlayer import AxisState, Machine, Simulation
 from motionlayer.drive import Fault
 from motionlayer.event import Level
 from motionlayer.machine import DriveFault
 from motionlayer.verify import assert_valid
-from tests.machines import LINEAR
 
 SERVO: dict[str, Any] = LINEAR | {"drive": {"kind": "servo", "position_gain": 60.0}}
 
@@ -76,8 +76,10 @@ def test_what_cannot_be_is_told_and_does_nothing() -> None:
     write(run, "eFault", DriveFault.BLOCKED, axis=2)
     run.step()
     assert warnings(run) == [
-        "GVL_SIMULATION.DriveFault[1]: eFault = 9, allowed: 0 (NONE), 1 (DRIVE_ERROR), 2 (ENCODER_JUMP), "
-        "3 (LOST_ENABLE), 4 (LOST_COMMUNICATION), 5 (BLOCKED)",
+        (
+            "GVL_SIMULATION.DriveFault[1]: eFault = 9, allowed: 0 (NONE), 1 (DRIVE_ERROR), 2 (ENCODER_JUMP), "
+            "3 (LOST_ENABLE), 4 (LOST_COMMUNICATION), 5 (BLOCKED)"
+        ),
         "GVL_SIMULATION.DriveFault[1]: fault encoder_jump: value = nan, must be a finite number",
         'GVL_SIMULATION.DriveFault[2]: the drive is ideal, and never has a fault; set kind = "servo"',
     ]

@@ -78,6 +78,8 @@ def test_schema_describes_every_field_and_asks_only_for_what_has_no_default() ->
     assert undescribed == []
     assert {name: table.get("required", []) for name, table in tables.items()} == {
         "Description": ["format", "name"],
+        "AdsDescription": [],
+        "AdsLimitsDescription": [],
         "AxisDescription": ["max_velocity", "max_acceleration", "max_jerk"],
         "HomeDescription": [],
         "ControlDescription": ["axes"],
@@ -91,6 +93,7 @@ def test_schema_describes_every_field_and_asks_only_for_what_has_no_default() ->
         "MapDescription": ["group"],
         "ModuloDescription": [],
         "MonitorDescription": [],
+        "MqttDescription": [],
         "PhaseDescription": [],
         "ProgramDescription": ["file"],
         "RealTimeDescription": [],

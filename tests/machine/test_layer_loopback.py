@@ -7,7 +7,9 @@ import pytest
 from tests.machines import LINEAR
 
 from motionlayer import Loopback, Machine, MachineRun, Simulation, Trace, replay
+from motionlayer.event import Subdevice
 from motionlayer.layer import AxisCommand, LayerError, Progress
+from motionlayer.machine import DriveFault
 from motionlayer.verify import assert_valid
 
 HEAD: dict[str, Any] = {"format": 1}
@@ -77,7 +79,7 @@ def test_a_command_is_seen_in_its_own_cycle_and_the_answer_in_the_next_one() -> 
         here.ctrl.cmd = AxisCommand.ENABLE
         loopback.step()
         assert axes.layer.axis[3].state.code == AxisCommand.ENABLE + Progress.INIT
-        assert here.state.code == DONE  # still the answer to NULL
+        assert here.state.code == AxisCommand.INIT + DONE  # still the answer to what start-up leaves behind
         loopback.step()
         assert here.state.code == AxisCommand.ENABLE + Progress.INIT
         assert_valid(axes.trace)
@@ -162,7 +164,7 @@ def test_reset_machines_are_wired_as_before() -> None:
             shown.append([axis.state.code for axis in controller.layer.axis])
             for run in (axes, controller):
                 run.reset()
-        assert shown[0] == shown[1] == [AxisCommand.ENABLE + DONE, DONE, DONE]
+        assert shown[0] == shown[1] == [AxisCommand.ENABLE + DONE, AxisCommand.INIT + DONE, AxisCommand.INIT + DONE]
 
 
 def _wrong(described: Mapping[str, Any]) -> Machine:
@@ -203,5 +205,69 @@ def test_a_client_of_the_control_side_writes_commands_and_no_states() -> None:
         with pytest.raises(PermissionError, match=r"GVL_AXIS\.State is written by the layer: client can only read it"):
             controller.symbols.write("GVL_AXIS.State[1].eState", 12, "client")
         controller.symbols.write("GVL_AXIS.Ctrl[1].eCmd", 3, "client")
+        controller.areas["MAIN_AXIS.eInit"].post(DONE.to_bytes(2, "little"))
         controller.step()
         assert controller.areas["MAPPING_AXIS_out.AxisCtrl"].read()[:2] == b"\3\0"
+
+
+@pytest.mark.parametrize("up", [Progress.DONE, Progress.ERROR])
+def test_nothing_is_given_out_before_the_start_up_over_there_has_ended(up: Progress) -> None:
+    """An image of zeros would be an override of 0 %; a start-up that has failed waits for a command."""
+    with Simulation(control()) as controller:
+        controller.step(3)
+        data = controller.areas["MAPPING_AXIS_out.AxisMoveData"]
+        assert not any(data.read())
+        controller.areas["MAIN_AXIS.eInit"].post(int(Progress.STARTUP).to_bytes(2, "little"))
+        controller.step()
+        assert not any(data.read())
+        controller.areas["MAIN_AXIS.eInit"].post(int(up).to_bytes(2, "little"))
+        controller.step()
+        assert controller.layer.symbols.read("GVL_AXIS.Data[1].rOverride") == 100.0
+        assert any(data.read())
+
+
+def test_the_start_up_and_what_follows_are_those_of_a_program_beside_the_layer() -> None:
+    def told(trace: Trace) -> list[tuple[str, str]]:
+        return [(one.source, one.text) for one in trace.events if one.subdevice == Subdevice.AxisControl]
+
+    with Simulation(motion({})) as run:
+        run.run(work(run), time=20.0)
+        direct = told(run.trace)
+    there = told(wired()[0])
+    assert there == direct
+    assert len(direct) > 20
+
+
+def test_a_controller_that_comes_while_axes_move_does_not_disturb_them() -> None:
+    with Simulation(motion()) as axes:
+        axes.step(60)
+        axes.axes["X"].enable()
+        axes.step(30)
+        axes.axes["X"].move_absolute(60.0)
+        axes.step(20)
+        assert 0.0 < axes.axes["X"].set_position < 60.0
+        with Simulation(control()) as controller:
+            loopback = Loopback(axes, controller)
+            loopback.step(10)
+            assert controller.layer.axis["X"].state.code == AxisCommand.INIT + DONE
+            loopback.step(2000)
+        assert axes.axes["X"].set_position == 60.0
+        trace = axes.trace
+    assert_valid(trace)
+    speeds = trace["X.set_velocity"]
+    moving = (speeds != 0.0).nonzero()[0]
+    assert len(moving) == moving[-1] - moving[0] + 1
+
+
+def test_a_controller_lets_a_simulated_drive_fail_by_its_images() -> None:
+    servo = LINEAR | {"drive": {"kind": "servo", "position_gain": 60.0}}
+    described = motion({"A": {"group": "axis", "objects": ["Y"]}}, axis={"X": LINEAR, "Y": servo})
+    with Simulation(described) as axes, Simulation(control("Y", selector=False)) as controller:
+        loopback = Loopback(axes, {"A": controller})
+        loopback.step(60)
+        controller.symbols.write("GVL_SIMULATION.DriveFault[1].eFault", DriveFault.DRIVE_ERROR, "client")
+        loopback.step(4)
+        assert controller.layer.axis["Y"].info.error
+        assert axes.axes["Y"].error is not None
+        assert axes.axes["X"].error is None
+        axes.symbols.write("GVL_SIMULATION.DriveFault[2].eFault", DriveFault.NONE, "another client")

@@ -327,7 +327,7 @@ def test_data_without_a_file_includes_modules_from_the_working_directory(
 
 
 def test_every_section_is_of_modules_or_of_the_machine_alone() -> None:
-    alone = {"format", "name", "base_cycle_ns", "seed", "realtime", "log", "persistent_file", "layer", "control"}
+    alone = {"format", "name", "base_cycle_ns", "seed", "realtime", "log", "persistent_file", "layer", "control", "ads"}
     assert set(Description.model_fields) <= alone | set(SECTIONS), "say in machine/_names.py what a module may hold"
     assert not alone & (set(SECTIONS) - {"format"})
 

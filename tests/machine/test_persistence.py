@@ -127,4 +127,4 @@ def test_a_value_that_no_longer_fits_is_refused_with_a_message(tmp_path: Path) -
     with Simulation(machine(tmp_path)) as run:
         run.step()
         assert run.axes["X"].config.maximum.velocity == 500.0
-    assert any("AxisMaxVelocity = 900.0, allowed: 0.0 < x <= 500.0 u/s" in event.text for event in run.trace.events)
+    assert any("AxisMaxVelocity = 900.0, allowed: 0.0 < x <= 500.0 mm/s" in event.text for event in run.trace.events)

@@ -8,7 +8,8 @@ import pytest
 from motionlayer import AxisState, Fault, Simulation
 from motionlayer.command import ErrorId
 from motionlayer.drive import FAULTS, FaultKind
-from motionlayer.nc import Axis
+from motionlayer.event import Kind
+from motionlayer.nc import Axis, BufferMode
 from motionlayer.verify import assert_valid
 from tests.machines import error_of, finish, one_axis, play, state_of
 from tests.nc.servos import ready_servos, servo_machine
@@ -72,6 +73,16 @@ def test_a_fault_at_an_exact_tick(kind: str, moving: bool) -> None:
     assert x.actual_position == position
     recover(run, x)
     assert_valid(run.trace)
+
+
+def test_every_command_that_an_error_ends_is_named() -> None:
+    run, (x,) = ready_servos()
+    x.move_absolute(100.0)
+    x.move_relative(50.0, buffer_mode=BufferMode.BUFFERED)
+    run.inject("X", fault("lost_enable"), tick=300)
+    run.step(400 - run.tick)
+    ended = [event.text for event in run.trace.events if event.kind is Kind.ERROR]
+    assert ended == [f"{name}: the axis is not enabled" for name in ("X.move_absolute", "X.move_relative")]
 
 
 def test_the_setpoint_brakes_and_the_drive_brakes_by_itself() -> None:

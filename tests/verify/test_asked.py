@@ -356,3 +356,41 @@ def test_in_disabled_every_motion_has_ended() -> None:
     assert_valid(trace)
     silent = tuple(one for one in trace.events if not (one.kind == Kind.DONE and "move_absolute" in one.text))
     assert "the axis is in DISABLED, and command" in _messages(changed(trace, events=silent))
+
+
+@pytest.mark.parametrize("shifts", [(7.0,), (7.0, -2.5)])
+@pytest.mark.parametrize("before", ["home", "define_position", ""])
+def test_what_is_redefined_and_then_shifted_in_one_tick_is_told_apart(before: str, shifts: tuple[float, ...]) -> None:
+    """The trace keeps the shift alone; how far that was, the commands tell."""
+    run = _run(start_position=-40.0)
+    x = run.axes["X"]
+    x.move_absolute(-30.0)
+    run.step(500)
+    if before == "home":
+        x.home(3.0)
+    elif before:
+        x.define_position(11.0, relative=True)
+    move = x.move_absolute(92.0)
+    for shift in shifts:
+        x.define_position(shift, relative=True)
+    run.step(1500)
+    assert move.done
+    assert x.set_position == 92.0 + sum(shifts)
+    assert_valid(run.trace)
+    assert "another place" in _messages(_told(run.trace, "position=92.0", "position=92.1"))
+
+
+def test_only_what_was_held_before_a_joint_has_the_brake_of_the_one_behind() -> None:
+    run, x = ready(software_limit_max=None)
+    x.move_absolute(200.0, velocity=400.0, deceleration=300.0)
+    x.move_absolute(350.0, velocity=400.0, buffer_mode=BufferMode.BLENDING_HIGH)
+    run.step(500)
+    assert 100.0 < x.set_position < 200.0
+    x.set_override(0.0)
+    run.step(300)
+    x.set_override(1.0)
+    run.step(2000)
+    trace = run.trace
+    assert_valid(trace)
+    strong = _planned(trace, lambda plan: plan.kind == "passing", deceleration=6000.0)
+    assert "the deceleration is not what command" in _messages(strong)

@@ -58,6 +58,32 @@ def test_power_that_comes_back_in_error_is_found(back: Trace, *, asked: bool) ->
     assert ("nobody asked for" in _messages(trace)) is not asked
 
 
+def test_who_waits_for_power_asks_again_once_the_setpoint_rests() -> None:
+    """The drive stands, and could have its power back, while the setpoint still brakes elsewhere."""
+    drive = {"kind": "servo", "position_gain": 20.0, "brake_deceleration": 50000.0}
+    axis = {"max_velocity": 500.0, "max_acceleration": 500.0, "max_jerk": 1e5, "drive": drive}
+    run = Simulation(Machine.from_dict({"format": 1, "name": "m", "axis": {"X": axis}}))
+    x = run.axes["X"]
+    x.enable()
+    run.step(3)
+    x.move_velocity(300.0)
+    run.step(1000)
+    waits = x.enable(positive=False)
+    x.fault(ErrorId.PARAMETER, "on purpose")
+    run.inject("X", Fault("lost_enable", duration=0.05), tick=run.tick + 10)
+    run.step(100)
+    assert x.set_velocity > 0.0
+    assert waits.busy
+    run.step(1000)
+    trace = run.trace
+    assert (trace["X.ready"][1100], trace["X.enable"][1100]) == (0.0, 0.0)
+    assert waits.error is not None
+    assert (trace["X.ready"][-1], x.set_position) == (1.0, x.actual_position)
+    assert_valid(trace)
+    silent = tuple(one for one in trace.events if one.command != waits.number)
+    assert "power is asked for without a command" in _messages(changed(trace, events=silent))
+
+
 def _resting() -> Bench:
     bench = Bench()
     bench.enable()

@@ -10,6 +10,7 @@ there is one, the peer. How numbers come about:
 - Recording runs in two threads. What counts for the cycle is the processor time of its thread; the wall time, which
   in a simulation includes waiting for the writer, is told in a note. The share of a core counts both threads.
 - Numbers that must hold rather than be quick (`numerics`) are the worst of many random cases, made from a seed.
+- What clients see (`ads`) is measured by clients in processes of their own, beside a run in real time.
 - Peers are packages from PyPI in pinned versions. They live in an environment of their own in the user's cache
   folder, set up on first use. A peer that cannot be had leaves its cell empty.
 

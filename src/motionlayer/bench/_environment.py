@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final
 
-PINS: Final = {"numpy": "2.4.6", "pyplcopen": "0.21.0", "ruckig": "0.19.4", "scipy": "1.17.1"}
+PINS: Final = {"numpy": "2.4.6", "pyads": "3.6.0", "pyplcopen": "0.21.0", "ruckig": "0.19.4", "scipy": "1.17.1"}
 """The measured versions, and what the linear program needs."""
 
 SETUP_PATIENCE: Final = 180.0

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Final
 
 from motionlayer import __version__, _kernel
-from motionlayer.bench import _axis, _core, _history, _numerics, _peers, _report, _runtime, _scaling
+from motionlayer.bench import _ads, _axis, _core, _history, _layer, _numerics, _peers, _report, _runtime, _scaling
 from motionlayer.bench._environment import tell
 from motionlayer.bench._report import Result
 from motionlayer.bench._row import Effort, Failed, Row, Skipped
@@ -18,6 +18,8 @@ GROUPS: Final[dict[str, tuple[Row, ...]]] = {
     "axis": _axis.ROWS,
     "numerics": _numerics.ROWS,
     "runtime": _runtime.ROWS,
+    "layer": _layer.ROWS,
+    "ads": _ads.ROWS,
 }
 
 FINE: Final = 0

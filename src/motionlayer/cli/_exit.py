@@ -22,7 +22,7 @@ class ExitCode(enum.IntEnum):
     USAGE = 2, "the command line or an environment variable is wrong"
     STUCK = 3, "a program did not yield; the run was ended"
     FAULT = 4, "a fault of motionlayer itself; please report it"
-    OUTPUT = 5, "a trace, a page or another output cannot be read, judged or written"
+    OUTPUT = 5, "a trace, a page or another output cannot be read, judged or written; a server cannot begin"
     HUNG_UP = 129, "the terminal was closed (SIGHUP)"
     INTERRUPTED = 130, "interrupted (Ctrl-C)"
     TERMINATED = 143, "terminated (SIGTERM)"

@@ -17,7 +17,9 @@ from motionlayer.cli._replay import replay
 from motionlayer.cli._run import run
 from motionlayer.cli._schema import schema
 from motionlayer.cli._soak import soak
+from motionlayer.cli._symbols import symbols
 from motionlayer.cli._verify import verify
+from motionlayer.cli._watch import watch
 
 
 class _Group(click.Group):
@@ -54,7 +56,7 @@ def group() -> None:
     """Motion runtime: axes planned, sampled, recorded and checked."""
 
 
-for _command in (new, check, run, verify, plot, replay, soak, bench, schema, export, error):
+for _command in (new, check, run, verify, plot, replay, soak, symbols, watch, bench, schema, export, error):
     group.add_command(_command)
 
 

@@ -33,6 +33,7 @@ class Options(NamedTuple):
         statistics: measure what the ticks cost.
         log: root folder of the message files, in the place of that of the machine file.
         log_level: in the place of that of the machine file.
+        ads: `HOST:PORT` of the ADS server; "" where the option has no value, None without it.
     """
 
     machine: Path
@@ -48,6 +49,7 @@ class Options(NamedTuple):
     statistics: bool
     log: Path | None
     log_level: str | None
+    ads: str | None
 
 
 def seconds(_context: click.Context, _option: click.Parameter, value: float | None) -> float | None:

@@ -51,6 +51,13 @@ from motionlayer.cli._options import (
     type=click.Choice(LEVELS),
     help="What is written beside errors, in the place of the level of MACHINE.  [info]",
 )
+@click.option(
+    "--ads",
+    is_flag=False,
+    flag_value="",
+    metavar="[HOST:PORT]",
+    help="Let ADS clients reach the run there.  [127.0.0.1:48898]",
+)
 @realtime_option
 @speed_option
 @click.option("--statistics", is_flag=True, help="Measure what the ticks cost; --realtime always does.")
@@ -58,7 +65,8 @@ from motionlayer.cli._options import (
 def run(ctx: click.Context, /, **options: object) -> None:
     """Run the programs of MACHINE, as fast as the computer allows, or with --realtime in the time of a clock.
 
-    The run ends when all programs have ended and no axis brakes, or when its time is over. With --trace or --hash the
+    The run ends when all programs have ended and no axis brakes, or when its time is over; one with an ADS server and
+    without programs, in real time, when it is interrupted. With --trace or --hash the
     last line is the hash of the run: the same machine, program and seed give the same hash.
     """
     from motionlayer.cli._simulate import simulate  # noqa: PLC0415 - help does without it

@@ -12,6 +12,8 @@ from typing import Final, NamedTuple, NoReturn
 import click
 
 from motionlayer import _kernel
+from motionlayer.cli._ads import FOREVER, ads_of
+from motionlayer.cli._ads import lines as ads_lines
 from motionlayer.cli._exit import ExitCode, Stop, complain, say
 from motionlayer.cli._failure import place, program_failure
 from motionlayer.cli._files import draw, load_machine, refuse_overwriting
@@ -29,6 +31,7 @@ from motionlayer.machine import (
     MachineRun,
     RealTime,
     RunKeywords,
+    ServerFailed,
     Simulation,
     Source,
 )
@@ -78,11 +81,16 @@ def simulate(options: Options) -> ExitCode:
 def _sources(machine: Machine, options: Options) -> list[Source]:
     require_clock(options.speed, realtime=options.realtime)
     sources = chosen(machine, options.program)
-    if not sources and options.time is None:
+    if not sources and options.time is None and not _commanded(machine, options):
         raise click.UsageError(
             f"{options.machine} names no program, and the run would never end: give --program FILE[:NAME], or --time S"
         )
     return sources
+
+
+def _commanded(machine: Machine, options: Options) -> bool:
+    """Tell whether the run is one that clients command, and goes on until somebody ends it."""
+    return options.realtime and ads_of(machine, options) is not False
 
 
 def _load(sources: Sequence[Source], options: Options) -> list[Loaded]:
@@ -103,12 +111,12 @@ def _made(machine: Machine, programs: list[Loaded], options: Options) -> Machine
         trace = options.plot is not None  # in memory, or the hash alone
     patience = options.patience or (REALTIME_PATIENCE if options.realtime else PATIENCE)
     common: RunKeywords = {"seed": options.seed, "trace": trace, "programs": programs, "patience": patience}
-    common["log"] = log_of(machine, options)
+    common["log"], common["ads"] = log_of(machine, options), ads_of(machine, options)
     try:
         if options.realtime:
             return RealTime(machine, speed=options.speed or 1.0, **common)
         return Simulation(machine, statistics=options.statistics, **common)
-    except (TraceError, LogError) as error:
+    except (TraceError, LogError, ServerFailed) as error:
         raise Stop(ExitCode.OUTPUT, str(error)) from error
 
 
@@ -119,7 +127,10 @@ def _execute(run: MachineRun, options: Options) -> list[Problem]:
     try:
         with Progress(ticks, cycle, sys.stderr) as progress, orderly(run, lambda: _give_up(run)) as interrupts:
             # In real time a terminal that does not take it would hold up the cycle.
-            run.run(time=options.time, watch=None if options.realtime else progress)
+            for line in lines_of("ads", ads_lines(run)):
+                say(line)
+            alone = options.time is None and run.idle  # then clients command it
+            run.run(time=FOREVER if alone else options.time, watch=None if options.realtime else progress)
     except ProgramStuck as stuck:
         return [Problem(ExitCode.STUCK, str(stuck).rstrip())]
     except CycleFault as fault:

@@ -66,7 +66,7 @@ def soaked(options: SoakOptions) -> ExitCode:
 
 
 def _made(machine: Machine, options: SoakOptions) -> MachineRun:
-    settings: RunKeywords = {"seed": options.seed, "trace": options.trace, "programs": (), "log": False}
+    settings: RunKeywords = {"seed": options.seed, "trace": options.trace, "programs": (), "log": False, "ads": False}
     try:
         if options.realtime:
             return RealTime(machine, speed=options.speed or 1.0, **settings)

@@ -6,7 +6,7 @@ from typing import Final
 from motionlayer.cli._distribution import histogram, overruns, slowest, spread, task
 from motionlayer.cli._options import Options
 from motionlayer.cli._tally import Tally
-from motionlayer.event import Level
+from motionlayer.event import Event, Level, Subdevice
 from motionlayer.machine import MachineRun, RealTime
 from motionlayer.nc import Axis
 
@@ -81,7 +81,20 @@ def _messages(tally: Tally, cycle: float) -> Iterator[str]:
     shown = f"; the last {len(tally.last)}:" if tally.levels.total() > len(tally.last) else ":"
     yield ", ".join(counts) + shown
     for event in tally.last:
-        yield f"  {event.tick * cycle:.6f} s  {event.level.name.lower()}  {event.source}: {event.text}"
+        yield f"  {event.tick * cycle:.6f} s  {event.level.name.lower()}  {_told(event)}"
+
+
+def _told(event: Event) -> str:
+    """Return who says what.
+
+    Messages of the motion layer that say nothing, or begin with a colon, go on from the columns of a message file:
+    subdevice and number stand beside them here.
+    """
+    text = event.text.lstrip(" :")
+    if text and text == event.text:
+        return text if text.startswith(event.source) else f"{event.source}: {text}"
+    part = Subdevice(event.subdevice).name if event.subdevice in Subdevice._value2member_map_ else event.subdevice
+    return " ".join(filter(None, (f"{event.source}: {part}", text, f"[0x{event.code:04X}]" if event.code else "")))
 
 
 def _counted(number: int, what: str) -> str:

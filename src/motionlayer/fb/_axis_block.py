@@ -1,6 +1,6 @@
 """Blocks of one axis."""
 
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, cast
 
 from motionlayer.command import Command, ErrorId
 from motionlayer.fb._axis_ref import AXIS_REF
@@ -9,6 +9,18 @@ from motionlayer.fb._inputs import Input, boolean
 
 if TYPE_CHECKING:
     from motionlayer import nc
+
+
+class Trouble(NamedTuple):
+    """Why a block that acts by level cannot.
+
+    Attributes:
+        error: number.
+        detail: value and what is allowed, with the unit.
+    """
+
+    error: ErrorId
+    detail: str
 
 
 class OfAxis(Block):
@@ -64,6 +76,9 @@ class EnableBlock(OfAxis):
         Busy: Enable is TRUE.
     """
 
+    METHOD: ClassVar = ""
+    """What a message about it names; empty for a block that never has trouble."""
+
     Enable = boolean("TRUE: read or act in every call")
 
     def __init__(self, axis: AXIS_REF | None = None) -> None:
@@ -73,15 +88,19 @@ class EnableBlock(OfAxis):
     def _call(self) -> None:
         self.Busy = bool(self.Enable)
         if self.Enable:
-            error = self._act()
-            self.Valid = error is None
-            self._show_error(error)
+            trouble = self._act()
+            self.Valid = trouble is None
+            if (
+                trouble is not None and trouble.error != self.ErrorID
+            ):  # a message tells it once, the outputs in every call
+                self._axis.refuse(self.METHOD, *trouble)
+            self._show_error(None if trouble is None else trouble.error)
         elif self.Valid or self.Error:
             self.Valid = False
             self._show_error(None)
             self._clear()
 
-    def _act(self) -> ErrorId | None:
+    def _act(self) -> Trouble | None:
         """Do the work of one call, or tell why it cannot be done."""
         raise NotImplementedError
 

@@ -26,7 +26,7 @@ class MC_OverrideFilter(Block):  # noqa: N801 - here and below, names of the int
     """Turn the raw value of a knob into an override that does not change with every flicker.
 
     The value is clamped to the thresholds and taken in steps. Each new step holds for the recovery time; 0 % and 100 %
-    pass at once.
+    pass at once. It has no axis; the run tells it the time: `MC_OverrideFilter(run)`.
 
     Args:
         clock: tells the time, as a run does.

@@ -14,6 +14,7 @@ class MC_Jog(AxisCommandBlock):  # noqa: N801 - the name of the interface
 
     While the axis moves no further edge is taken; of two in one call forward wins.
     Done, CommandAborted and Error are shown in one call, or as long as the key is held that began it.
+    At a software limit the axis comes to rest without an error, and the block stays busy until the key is released.
     """
 
     JogForward = boolean("key: in positive direction")

@@ -198,7 +198,10 @@ class MC_MoveContinuousAbsolute(Continuous):  # noqa: N801
 
 
 class MC_MoveContinuousRelative(Continuous):  # noqa: N801
-    """The same for a distance from the set position at which the command begins."""
+    """Move past a position at a distance from where the command begins, and on with an end velocity.
+
+    The distance counts from the set position.
+    """
 
     METHOD = "move_continuous_relative"
 

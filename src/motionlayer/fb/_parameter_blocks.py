@@ -2,14 +2,17 @@
 
 import enum
 import numbers
-from typing import Any, ClassVar, cast
+from typing import Any, ClassVar, Final, cast
 
 from motionlayer.command import Command, ErrorId
-from motionlayer.fb._axis_block import AxisBlock, EnableBlock
+from motionlayer.fb._axis_block import AxisBlock, EnableBlock, Trouble
 from motionlayer.fb._axis_ref import AXIS_REF
 from motionlayer.fb._inputs import Input, boolean, integer, lreal
 from motionlayer.fb._parameter_numbers import MC_AxisParameter
 from motionlayer.fb._parameters import PARAMETERS, UNKNOWN, find
+
+KINDS: Final[dict[type, str]] = {float: "a parameter that is an LREAL", bool: "a parameter that is a BOOL"}
+"""How a message speaks of the parameters that a block is for."""
 
 
 class E_ReadMode(enum.IntEnum):  # noqa: N801 - here and below, names of the interface
@@ -27,6 +30,7 @@ class ReadParameter(EnableBlock):
     """
 
     KIND: ClassVar[type]
+    METHOD = "read_parameter"
 
     ParameterNumber = integer("MC_AxisParameter", 0, "which parameter")
     ReadMode = cast("int", Input("E_ReadMode", E_ReadMode.READMODE_ONCE, "once per rising edge, or in every call"))
@@ -35,14 +39,15 @@ class ReadParameter(EnableBlock):
         super().__init__(axis)
         self.Value: float = self.KIND()
 
-    def _act(self) -> ErrorId | None:
+    def _act(self) -> Trouble | None:
         if self.ReadMode not in (E_ReadMode.READMODE_ONCE, E_ReadMode.READMODE_CYCLIC):
-            return ErrorId.PARAMETER
+            return Trouble(ErrorId.PARAMETER, f"ReadMode = {self.ReadMode}, allowed: 1, 2")
         if self.Valid and self.ReadMode == E_ReadMode.READMODE_ONCE:
             return None
         found = find(self.ParameterNumber, self.KIND)
         if found is None:
-            return UNKNOWN
+            allowed = f"the number of {KINDS[self.KIND]}"
+            return Trouble(UNKNOWN, f"ParameterNumber = {self.ParameterNumber}, allowed: {allowed}")
         self.Value = found[1].read(self._ref)
         return None
 
@@ -74,7 +79,7 @@ class WriteParameter(AxisBlock):
     def _issue(self) -> Command[Any]:
         ref, found = self._ref, find(self.ParameterNumber, self.KIND)
         if found is None or found[1].write is None:
-            allowed = f"a parameter of kind {self.KIND.__name__} that can be written"
+            allowed = f"the number of {KINDS[self.KIND]} that can be written"
             return self._refuse("write_parameter", UNKNOWN, "ParameterNumber", allowed)
         given: object = self.Value
         if not isinstance(given, bool if self.KIND is bool else numbers.Real):
@@ -96,8 +101,8 @@ def write_parameter(ref: AXIS_REF, number: int, value: float, *, persistent: boo
     """
     parameter = PARAMETERS.get(cast("MC_AxisParameter", number))
     if parameter is None or parameter.write is None:
-        allowed = f"ParameterNumber = {number}, allowed: a parameter that can be written"
-        return ref.axis.refuse("write_parameter", UNKNOWN, allowed)
+        detail = f"ParameterNumber = {number}, allowed: the number of a parameter that can be written"
+        return ref.axis.refuse("write_parameter", UNKNOWN, detail)
     name = MC_AxisParameter(number).name
     if parameter.kind is bool and value not in (0.0, 1.0):
         return ref.axis.refuse("write_parameter", ErrorId.PARAMETER, f"{name} = {value}, allowed: 0.0, 1.0")

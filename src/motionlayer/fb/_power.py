@@ -5,7 +5,7 @@ from typing import Any
 
 from motionlayer import nc
 from motionlayer.command import Command, ErrorId
-from motionlayer.fb._axis_block import AxisBlock, EnableBlock, OfAxis
+from motionlayer.fb._axis_block import AxisBlock, EnableBlock, OfAxis, Trouble
 from motionlayer.fb._axis_ref import AXIS_REF
 from motionlayer.fb._helpers import FULL
 from motionlayer.fb._inputs import boolean, enumeration, lreal, member_of, real
@@ -35,6 +35,7 @@ class MC_Power(OfAxis):  # noqa: N801 - here and below, names of PLCopen
         self.Active = False
         self._given = (False, False, False)
         self._override = math.nan
+        self._misset = False
         self._refused: tuple[ErrorId, nc.AxisState] | None = None
         self._command: nc.AxisCommand | None = None
 
@@ -76,9 +77,13 @@ class MC_Power(OfAxis):  # noqa: N801 - here and below, names of PLCopen
 
     def _set_override(self, ref: AXIS_REF) -> ErrorId | None:
         if self.Override == self._override:
+            self._misset = False
             return None
         value = real(self, "Override")
-        if not 0.0 <= value <= 100.0:
+        told, self._misset = self._misset, not 0.0 <= value <= 100.0
+        if self._misset:
+            if not told:
+                ref.axis.refuse("set_override", ErrorId.PARAMETER, f"Override = {value}, allowed: 0 to 100 %")
             return ErrorId.PARAMETER
         ref.axis.set_override(value / 100.0)
         self._override = value
@@ -96,6 +101,8 @@ class MC_Reset(AxisBlock):  # noqa: N801
 class MC_SetOverride(EnableBlock):  # noqa: N801
     """Scale the velocity of every motion of an axis."""
 
+    METHOD = "set_override"
+
     VelFactor = lreal(1.0, "factor, 0 to 1")
     AccFactor = lreal(1.0, "without effect")
     JerkFactor = lreal(1.0, "without effect")
@@ -105,13 +112,13 @@ class MC_SetOverride(EnableBlock):  # noqa: N801
         """The override is in force."""
         return self.Valid
 
-    def _act(self) -> ErrorId | None:
+    def _act(self) -> Trouble | None:
         ref = self._ref
         if self.VelFactor == ref.axis.override:
             return None
         value = real(self, "VelFactor")
         if not 0.0 <= value <= 1.0:
-            return ErrorId.PARAMETER
+            return Trouble(ErrorId.PARAMETER, f"VelFactor = {value}, allowed: 0 to 1")
         ref.axis.set_override(value)
         ref.PlcToNc.Override = round(value * FULL)
         return None

@@ -65,16 +65,16 @@ class MC_ReadStatus(EnableBlock):  # noqa: N801
 
     Attributes:
         Status: all of it.
-        Disabled: state of the state diagram, as the following ones.
-        StandStill: see there.
-        ErrorStop: see there.
-        Stopping: see there.
-        Homing: see there.
-        DiscreteMotion: see there.
-        ContinuousMotion: see there.
-        SynchronizedMotion: see there.
+        Disabled: the drive is off; this and the following ones are the states of PLCopen.
+        StandStill: the drive is on, nothing moves.
+        ErrorStop: in error; only a reset leads out.
+        Stopping: braking, or locked by MC_Stop.
+        Homing: a homing is under way.
+        DiscreteMotion: a motion that ends by itself, or a halt.
+        ContinuousMotion: a motion without end, or a jog.
+        SynchronizedMotion: coupled to another axis; not yet.
         ConstantVelocity: the setpoint moves without acceleration.
-        Accelerating: |velocity| of the setpoint grows.
+        Accelerating: the speed of the setpoint grows.
         Decelerating: it falls.
     """
 

@@ -65,7 +65,7 @@ class Settings:
     def write(self, name: str, path: str, value: float, allowed: Range, off: float | None, unit: str) -> Command[Any]:
         """Set a value; one that is switched off is kept for when it is on."""
         if value not in allowed:
-            return self._refuse(name, value, f"{allowed} {unit}")
+            return self._refuse(name, value, f"{allowed} {self._spelt(unit)}".rstrip())
         if off is not None and not self.is_on(path, off):
             self.idle[path] = value
             return self._put(name, path, operator.attrgetter(path)(self.axis.config), value)
@@ -82,6 +82,10 @@ class Settings:
             return self._put(name, path, value, on) if value in allowed else self._refuse(name, on, str(allowed))
         self.idle[path] = self.value(path, off)
         return self._put(name, path, off, on)
+
+    def _spelt(self, unit: str) -> str:
+        """Return a unit of the tables with that of the axis in the place of u."""
+        return self.axis.config.unit + unit[1:] if unit.startswith("u") else unit
 
     def _refuse(self, name: str, value: float, allowed: str) -> Command[Any]:
         return self.axis.refuse("write_parameter", ErrorId.PARAMETER, f"{name} = {value}, allowed: {allowed}")

@@ -49,6 +49,6 @@ __all__ = [
     "STRING", "TIME", "TOD", "UDINT", "UINT", "ULINT", "USINT", "WORD", "WSTRING", "Array", "ArrayValue", "Bit",
     "Boolean", "Bounds", "Bytes", "Compound", "CompoundType", "ElementGuard", "Elementary", "Enumeration", "Field",
     "Guard", "IecType", "Index", "InputArray", "Integer", "Member", "Memory", "Method", "Named", "OutputArray",
-    "Parameter", "Place", "Real", "Scalar", "Source", "String", "Struct", "StructType", "Symbol", "SymbolTable", "Union",
-    "Variable", "WString",
+    "Parameter", "Place", "Real", "Scalar", "Source", "String", "Struct", "StructType", "Symbol", "SymbolTable",
+    "Union", "Variable", "WString",
 ]  # fmt: skip

@@ -5,7 +5,7 @@ gaps.
 """
 
 import struct
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from operator import attrgetter
 from typing import Any, Final, NamedTuple
 
@@ -32,7 +32,8 @@ class Codec:
         self._struct: Final = struct.Struct(item_format(layout))
         items = list(_items(layout, slots))
         self._collect: Final = _collector(items)
-        self._setters: Final = tuple(item.put for item in items)
+        self._setters: Final = tuple(_setter(item) for item in items)
+        self._columns: Final = tuple((item.put, item.decode_each) for item in items)
         self._parts: Final = tuple(
             (attrgetter(member.attribute), member.offset)
             for member in layout.members
@@ -56,12 +57,28 @@ class Codec:
         for part, at in self._parts:
             part(value).unpack_from(memory, offset + at)
 
+    def unpack_each(self, values: Sequence[object], rows: bytes) -> None:
+        """Let objects hold what as many rows of bytes say: one member of all objects after the other.
+
+        Args:
+            values: the objects.
+            rows: their bytes, one behind the other.
+        """
+        items = zip(*self._struct.iter_unpack(rows))  # noqa: B905 - all of one length
+        for (put, decode), column in zip(self._columns, items):  # noqa: B905 - as many
+            any(map(put, values, column if decode is None else decode(column)))  # puts return None: a loop in C
+        for part, at in self._parts:
+            for row, value in enumerate(values):
+                part(value).unpack_from(rows, row * self._size + at)
+
 
 class _Item(NamedTuple):
-    """An item of the format: how it is read from an object, and set in it; the attribute where it is just that."""
+    """An item of the format: how it is read from an object, decoded and set; the attribute where it is just read."""
 
     attribute: str | None
     get: Get
+    decode: Callable[[Any], Any] | None
+    decode_each: Callable[[Sequence[Any]], Iterable[Any]] | None
     put: Set
 
 
@@ -76,10 +93,16 @@ def _items(layout: Layout, slots: Mapping[str, Any]) -> Iterator[_Item]:
 
 def _scalar_item(attribute: str, kind: Scalar[Any], put: Set) -> _Item:
     encode, decode, read = kind.encoder, kind.decoder, attrgetter(attribute)
-    setter: Set = put if decode is None else lambda value, raw: put(value, decode(raw))
+    each = None if decode is None else kind.decode_each
     if encode is None:
-        return _Item(attribute, read, setter)
-    return _Item(None, lambda value: encode(read(value)), setter)
+        return _Item(attribute, read, decode, each, put)
+    return _Item(None, lambda value: encode(read(value)), decode, each, put)
+
+
+def _setter(item: _Item) -> Set:
+    """Return what sets an item in an object as it comes from the bytes."""
+    put, decode = item.put, item.decode
+    return put if decode is None else lambda value, raw: put(value, decode(raw))
 
 
 def _bit_item(bits: list[Member], slots: Mapping[str, Any]) -> _Item:
@@ -93,7 +116,7 @@ def _bit_item(bits: list[Member], slots: Mapping[str, Any]) -> _Item:
         for put, mask in puts:
             put(value, raw & mask != 0)
 
-    return _Item(None, get, spread)
+    return _Item(None, get, None, None, spread)
 
 
 def _collector(items: list[_Item]) -> Get:

@@ -1,6 +1,7 @@
 """`Compound`: values that live in one place and are changed there, structures and arrays."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from typing import Any, TypeVar
 
 from motionlayer.iec._type import Bytes, Guard, IecType, Memory, Put
@@ -54,6 +55,11 @@ class CompoundType(IecType[C, Put]):
         value = self.initial()
         value.unpack_from(memory, offset)
         return value
+
+    def unpack_each(self, values: Sequence[C], rows: bytes) -> None:
+        """Let values take on as many rows of bytes, which lie one behind the other; no guard is asked."""
+        for row, value in enumerate(values):
+            value.unpack_from(rows, row * self.size)
 
 
 def check_room(who: str, size: int, memory: Bytes, offset: int) -> None:

@@ -1,7 +1,7 @@
 """`Enumeration`: an IEC enumeration over a plain `enum.IntEnum`."""
 
 import enum
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Final, Generic, TypeVar
 
 from motionlayer.iec._elementary import Integer
@@ -71,6 +71,10 @@ class Enumeration(Scalar["E | int"], Generic[E]):
     def decode(self, raw: int) -> E | int:
         """Return the member, or the number without one."""
         return self._known.get(raw, raw)
+
+    def decode_each(self, raw: Sequence[int]) -> Iterable[E | int]:
+        """Return the members, or the numbers without one."""
+        return map(self._known.get, raw, raw)
 
     def iec_name(self, value: int) -> str:
         """Return the declared name of a value, `AXIS_MOVE_POS`; without a member the number."""

@@ -8,7 +8,7 @@ counts as touched.
 from collections.abc import Sequence
 from typing import Any, Final, overload
 
-from motionlayer.iec._compound import Compound, check_room
+from motionlayer.iec._compound import Compound, CompoundType, check_room
 from motionlayer.iec._type import Bytes, ElementGuard, Got, IecType
 from motionlayer.iec._variable import Variable
 
@@ -23,6 +23,8 @@ class InputArray(Variable[Got]):
         touched: indices of the elements that were written since the last `take`, in the order of their first write; 0
             stands for a single object.
     """
+
+    __slots__ = ("_elements", "_is_touched", "_kind", "_stale", "by", "guard", "touched")
 
     writable: Final = True
     memory: bytearray
@@ -42,10 +44,10 @@ class InputArray(Variable[Got]):
         self._is_touched = bytearray(self.count)
         self._stale: dict[int, None] = dict.fromkeys(range(self.count))
         self._elements = [self.of.initial() for _ in range(self.count)]
-        compounds: list[Any] = [element for element in self._elements if isinstance(element, Compound)]
-        self._compounds = compounds or None
-        for place, element in enumerate(compounds):
-            element.attach(_Watch(self, place))
+        self._kind: Any = self.of if isinstance(self.of, CompoundType) else None
+        for place, element in enumerate(self._elements):
+            if isinstance(element, Compound):
+                element.attach(_Watch(self, place))
         self.publish()
 
     def take(self) -> list[int]:
@@ -90,7 +92,7 @@ class InputArray(Variable[Got]):
         for place in span:
             self._refresh(place)
         self.memory[offset : offset + len(data)] = data
-        self.decode(span)
+        self.decode(span, bytes(self.memory[span.start * self.size : span.stop * self.size]))
 
     def accept(self, index: int | None, data: Bytes, offset: int = 0) -> None:
         """Let an element take on bytes from the image that owns it; the guard is not asked.
@@ -107,32 +109,34 @@ class InputArray(Variable[Got]):
         place, size = self._place(index), self.size
         if offset < 0 or offset + size > len(data):
             check_room(self.name, size, data, offset)
-        self.memory[place * size : (place + 1) * size] = data[offset : offset + size]
-        self.decode([place])
+        row = bytes(data[offset : offset + size])
+        self.memory[place * size : (place + 1) * size] = row
+        self.decode((place,), row)
 
-    def decode(self, places: Sequence[int]) -> None:
+    def decode(self, places: Sequence[int], rows: bytes) -> None:
         """Let elements take on what lies in `memory`, for the image that owns them and has written it there.
 
         Args:
             places: of the elements, from 0.
+            rows: their bytes, one element behind the other.
         """
-        memory, size, compounds, stale = self.memory, self.size, self._compounds, self._stale
-        for place in places:
-            if compounds is not None:
-                compounds[place].unpack_from(memory, place * size)
-            else:
-                self._elements[place] = self.of.unpack_from(memory, place * size)
-            if stale:
+        elements, stale = self._elements, self._stale
+        if self._kind is None:
+            for row, place in enumerate(places):
+                elements[place] = self.of.unpack_from(rows, row * self.size)
+        else:
+            self._kind.unpack_each([elements[place] for place in places], rows)
+        if stale:
+            for place in places:
                 stale.pop(place, None)
-            if not self._is_touched[place]:
-                self._touch(place)
+        self._touch(places)
 
     def before(self, place: int) -> None:
         """Ask the guard and note that an element is about to be written."""
         if self.guard is not None:
             self.guard(self.index(place))
         self._stale[place] = None
-        self._touch(place)
+        self._touch((place,))
 
     def _ask(self, span: range, by: str) -> None:
         if self.guard is None:
@@ -144,10 +148,12 @@ class InputArray(Variable[Got]):
         finally:
             self.by = None
 
-    def _touch(self, place: int) -> None:
-        if not self._is_touched[place]:
-            self._is_touched[place] = 1
-            self.touched.append(place + (self.low or 0))
+    def _touch(self, places: Sequence[int]) -> None:
+        known, low = self._is_touched, self.low or 0
+        for place in places:
+            if not known[place]:
+                known[place] = 1
+                self.touched.append(place + low)
 
     def _refresh(self, place: int) -> None:
         if place in self._stale:

@@ -46,6 +46,18 @@ class OutputArray(Variable[Got]):
         if memory is None:
             self._start()
 
+    def shown(self, index: int) -> Got:
+        """Return an element for those who only read: of a structure a view that refuses to be written.
+
+        Raises:
+            IndexError: the index is out of the bounds.
+        """
+        place, kind = self._place(index), self.of
+        if not isinstance(kind, CompoundType):
+            return self._element(place)
+        made: Got = kind.place(self._view.toreadonly(), place * self.size)
+        return made
+
     def read(self, offset: int, size: int) -> bytes:
         """Return bytes of the whole variable.
 

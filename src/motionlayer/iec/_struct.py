@@ -7,6 +7,7 @@ view, of memory of its own if it is not made on other.
 """
 
 import difflib
+from collections.abc import Sequence
 from typing import Any, ClassVar, NoReturn, Self
 
 import numpy as np
@@ -134,6 +135,11 @@ class Struct(Compound, metaclass=StructMeta):
             ValueError: the memory ends too early.
         """
         self._codec.unpack_from(self, memory, offset)
+
+    @classmethod
+    def unpack_each(cls, values: Sequence["Struct"], rows: bytes) -> None:
+        """Let objects of the class, none of them a view, take on as many rows of bytes; no guard is asked."""
+        cls._codec.unpack_each(values, rows)
 
     def attach(self, guard: Guard | None) -> None:
         """Call `guard` from now on before every write to it or a part of it."""

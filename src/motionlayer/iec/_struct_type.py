@@ -1,5 +1,6 @@
 """`StructType`: what a structure or union is, for codecs, symbols and export."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Final, TypeVar
 
 from motionlayer.iec._compound import CompoundType
@@ -53,6 +54,13 @@ class StructType(CompoundType[T, T]):
         if isinstance(value, self.cls):
             return value
         raise TypeError(f"{who or self.name}: {value!r} must be of class {self.cls.__name__} ({self.name})")
+
+    def unpack_each(self, values: Sequence[T], rows: bytes) -> None:
+        """Let objects, none of them a view, take on as many rows of bytes, one behind the other; no guard is asked."""
+        if self.union:
+            super().unpack_each(values, rows)
+        else:
+            self.cls.unpack_each(values, rows)
 
     def place(self, memory: memoryview, offset: int) -> T:
         """Return a value whose attributes read and write the memory."""

@@ -2,7 +2,7 @@
 
 import struct
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, Final, Generic, TypeAlias, TypeVar
 
 import numpy as np
@@ -101,6 +101,10 @@ class Scalar(IecType[Got, Got]):
     def decode(self, raw: Any) -> Any:  # noqa: ANN401
         """Return the value of an item from `struct`."""
         return raw
+
+    def decode_each(self, raw: Sequence[Any]) -> Iterable[Any]:
+        """Return the values of several items from `struct`."""
+        return map(self.decode, raw)
 
     @property
     def read(self) -> Callable[[Bytes, int], tuple[Any, ...]]:

@@ -34,6 +34,9 @@ class Variable(ABC, Generic[Got]):
         ValueError: the bounds are none.
     """
 
+    # The layer asks in every cycle whether variables were touched; a slot is read without a search.
+    __slots__ = ("_bounds", "count", "high", "low", "memory", "name", "of", "size", "type")
+
     memory: Memory
 
     @overload

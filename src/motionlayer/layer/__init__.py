@@ -27,6 +27,7 @@ from motionlayer.layer._job import Job, JobTable, Transition, a_call_later, alwa
 from motionlayer.layer._layer import MotionLayer
 from motionlayer.layer._mapping import ORIGINAL, ImageMapping, MapOptions
 from motionlayer.layer._mapping_build import START, Outside, control_mapping, layer_mapping, map_variables
+from motionlayer.layer._mapping_table import SIMULATED
 from motionlayer.layer._messages import Messages
 from motionlayer.layer._namespace import Namespace, NamespaceJob, NamespaceObject, Site, after
 from motionlayer.layer._namespaces import Namespaces
@@ -39,6 +40,7 @@ __all__ = [
     "AXIS_JOBS",
     "NAMESPACES",
     "ORIGINAL",
+    "SIMULATED",
     "START",
     "START_UP",
     "Absent",

@@ -42,6 +42,12 @@ class AxisNamespace:
         startup: brings the axes up, one after the other.
     """
 
+    # Read in every cycle of every machine: quicker than with a dictionary.
+    __slots__ = (
+        "_active", "_awake", "_ctrl", "_data", "_infos", "_options", "_selector_ctrl", "_starting", "_starts",
+        "_switches", "_waits", "axis", "controllers", "selector", "startup",
+    )  # fmt: skip
+
     def __init__(
         self,
         ports: Sequence[AxisPort],
@@ -57,10 +63,11 @@ class AxisNamespace:
         self._starting = starting
         self._starts = True
         self._infos = AxisInfos(images, variables.info)
-        self.axis = axis_objects([port.ref.axis.name for port in ports], variables, waits)
+        names = [port.ref.axis.name for port in ports]
+        self.axis = axis_objects(names, variables, waits)
         self.controllers = [
             AxisController(port, one, self._infos.flags, self._infos.errors)
-            for port, one in zip(ports, self.axis, strict=True)
+            for port, one in zip(ports, axis_objects(names, variables, waits, by_layer=True), strict=True)
         ]
         self.startup = StartUp(self.controllers, variables.ctrl, e_init)
         self.selector = Selector(ports, variables.selector_ctrl, variables.selector_state, waits)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from motionlayer.command import Command, ErrorId
 from motionlayer.event import Event, Kind, Level, Subdevice
-from motionlayer.layer._job import ENDS, Job, JobTable, Transition, always, nothing
+from motionlayer.layer._job import NOTHING, Job
 from motionlayer.layer.types._progress import Progress
 
 if TYPE_CHECKING:
@@ -23,11 +23,6 @@ if TYPE_CHECKING:
 FAILED: Final = " : PROGRESS_ERROR"
 DONE: Final = " : PROGRESS_DONE"
 """Texts that many messages share (motion-layer 8.7)."""
-
-IDLE_TABLE: Final[JobTable["AxisJob"]] = JobTable(
-    "NULL", [Transition(Progress.INIT, always, nothing, Progress.DONE)], ends=ENDS
-)
-"""A job that does nothing: what stands in a memory before the first command."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +71,7 @@ class AxisJob(Job):
     """
 
     def __init__(self, port: AxisPort, inputs: "AxisObject") -> None:
-        super().__init__(IDLE_TABLE, port.ref.axis.ledger)
+        super().__init__(NOTHING, port.ref.axis.ledger)
         self.port = port
         self.inputs = inputs
         self.axis: Axis = port.ref.axis

@@ -15,7 +15,7 @@ class AxisRefArray(OutputArray[AxisRef]):
     """The images of all axes as one array of `AXIS_REF`.
 
     The NC keeps the images in two buffers, where they are filled and mapped in one piece. The array here is brought up
-    to date when somebody reads it by symbol, or by `refresh`; nobody pays for it in a cycle in which nobody looks.
+    to date when somebody reads it by symbol, or by `publish`; nobody pays for it in a cycle in which nobody looks.
 
     Args:
         images: of the NC; None where the axes are in another machine, which leaves zeros.
@@ -30,8 +30,8 @@ class AxisRefArray(OutputArray[AxisRef]):
         self._nc_to_plc = rows[:, offsets["NcToPlc"] :][:, :256]
         self._plc_to_nc = rows[:, offsets["PlcToNc"] :][:, :128]
 
-    def refresh(self) -> None:
-        """Copy what the NC shows now."""
+    def publish(self) -> None:
+        """Bring the bytes up to date: copy what the NC shows now."""
         images = self._images
         if images is not None:
             self._nc_to_plc[:] = images.nc_to_plc.view(np.uint8).reshape(-1, 256)
@@ -39,5 +39,5 @@ class AxisRefArray(OutputArray[AxisRef]):
 
     def read(self, offset: int, size: int) -> bytes:
         """Return bytes as they are now."""
-        self.refresh()
+        self.publish()
         return super().read(offset, size)

@@ -40,17 +40,28 @@ def commanded_end(job: AxisJob) -> bool:
 def _free(job: AxisJob) -> bool:
     """Tell whether the buffer of the axis is free: the last motion runs already, or has ended without an error."""
     command = job.command
-    return command is None or command.active or command.done or command.aborted
+    return command is None or command.active or command.done
 
 
-def _mode(job: AxisJob) -> BufferMode | None:
+def _mode(job: AxisJob, method: str) -> BufferMode | None:
     """Return how the next motion joins; None with a refused command where there is no such mode."""
     number = job.inputs.options.buffer_mode
     mode = NC_BUFFER_MODES.get(number)
     if mode is None:
         allowed = f"eBufferMode = {int(number)}, allowed: {', '.join(str(int(one)) for one in NC_BUFFER_MODES)}"
-        job.command = job.axis.refuse("move_absolute", ErrorId.MODE_INVALID, allowed)
+        job.command = job.axis.refuse(method, ErrorId.MODE_INVALID, allowed)
     return mode
+
+
+def tell_aborted(level: Level, part: Subdevice) -> "Callable[[AxisJob], None]":
+    """Return the action that tells of a motion that somebody else has replaced; the job goes on without it."""
+
+    def tell(job: AxisJob) -> None:
+        """Action: tell, and go on without it."""
+        job.tell(level, part, f"FB aborted: {job.shown}")
+        release(job)
+
+    return tell
 
 
 # -- positions ---------------------------------------------------------------------------------------------------------
@@ -73,7 +84,7 @@ def start_position(instance: int) -> "Callable[[AxisJob], None]":
     def start(job: AxisJob) -> None:
         """Action: start a motion."""
         data, before, last = job.inputs.data, job.command, job.latched
-        mode = _mode(job)
+        mode = _mode(job, "move_absolute")
         if mode is None:
             return
         arrived = isinstance(before, AxisCommand) and (not before.busy or before.at_target)
@@ -109,10 +120,12 @@ MOVE_BUFFER: Final = JobTable[AxisJob](
         Transition(_P.STARTUP, always, start_position(1), _P.PREPARE),
         Transition(_P.PREPARE, commanded_end, release, _P.DONE),
         Transition(_P.PREPARE, failed, fail(_POSITIONS[1]), _P.ERROR),
+        Transition(_P.PREPARE, aborted, tell_aborted(Level.VERBOSE, _POSITIONS[1]), _P.PREPARE),
         Transition(_P.PREPARE, other_position, tell_position(1), _P.CHECK),
         Transition(_P.CHECK, always, start_position(2), _P.OCCUPIED),
         Transition(_P.OCCUPIED, commanded_end, release, _P.DONE),
         Transition(_P.OCCUPIED, failed, fail(_POSITIONS[2]), _P.ERROR),
+        Transition(_P.OCCUPIED, aborted, tell_aborted(Level.VERBOSE, _POSITIONS[2]), _P.OCCUPIED),
         Transition(_P.OCCUPIED, other_position, tell_position(2), _P.STARTUP),
     ],
 )
@@ -138,7 +151,8 @@ def start_velocity(instance: int) -> "Callable[[AxisJob], None]":
     def start(job: AxisJob) -> None:
         """Action: move with these values."""
         data = job.inputs.data
-        mode, way = _mode(job), direction_of(job, "move_velocity")
+        mode = _mode(job, "move_velocity")
+        way = None if mode is None else direction_of(job, "move_velocity")
         if mode is None or way is None:
             return
         job.latched = _moving(job)
@@ -161,18 +175,6 @@ def tell_velocity(instance: int) -> "Callable[[AxisJob], None]":
     return tell
 
 
-def tell_aborted(instance: int) -> "Callable[[AxisJob], None]":
-    """Return the action that tells of a motion that somebody else has replaced; the job goes on without it."""
-    part = _VELOCITIES[instance]
-
-    def tell(job: AxisJob) -> None:
-        """Action: tell, and go on without it."""
-        job.tell(Level.ERROR, part, "FB aborted: PROGRESS_WORKING")
-        release(job)
-
-    return tell
-
-
 MOVE_BUFFER_VELO: Final = JobTable[AxisJob](
     "MOVE_BUFFER_VELO",
     [
@@ -182,12 +184,12 @@ MOVE_BUFFER_VELO: Final = JobTable[AxisJob](
         Transition(_P.STARTUP, always, start_velocity(1), _P.PREPARE),
         Transition(_P.PREPARE, commanded_end, release, _P.STILL_WORKING),
         Transition(_P.PREPARE, failed, fail(_VELOCITIES[1]), _P.ERROR),
-        Transition(_P.PREPARE, aborted, tell_aborted(1), _P.PREPARE),
+        Transition(_P.PREPARE, aborted, tell_aborted(Level.ERROR, _VELOCITIES[1]), _P.PREPARE),
         Transition(_P.PREPARE, other_velocity, tell_velocity(1), _P.CHECK),
         Transition(_P.CHECK, always, start_velocity(2), _P.OCCUPIED),
         Transition(_P.OCCUPIED, commanded_end, release, _P.STILL_WORKING),
         Transition(_P.OCCUPIED, failed, fail(_VELOCITIES[2]), _P.ERROR),
-        Transition(_P.OCCUPIED, aborted, tell_aborted(2), _P.OCCUPIED),
+        Transition(_P.OCCUPIED, aborted, tell_aborted(Level.ERROR, _VELOCITIES[2]), _P.OCCUPIED),
         Transition(_P.OCCUPIED, other_velocity, tell_velocity(2), _P.STARTUP),
         Transition(_P.STILL_WORKING, always, nothing, _P.DONE),
     ],

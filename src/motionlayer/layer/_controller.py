@@ -11,6 +11,7 @@ A controller whose job has ended, and whose end is published, has nothing to do 
 namespace does not call it. The state is computed where it is written, and stored nowhere else.
 """
 
+from abc import ABC, abstractmethod
 from typing import Any, Final, NamedTuple
 
 from motionlayer.layer._job import Job, JobTable
@@ -35,7 +36,7 @@ class Choice(NamedTuple):
     number: int | None = None
 
 
-class Controller:
+class Controller(ABC):
     """One object with a command field and a state field; subclasses say where these are and what a command means.
 
     Args:
@@ -79,11 +80,10 @@ class Controller:
 
     def _begin(self, command: int) -> None:
         """Take a new command up."""
-        self.command = command
+        self.command, self._shown = command, None
         choice = self.choose(command)
         self._number = command if choice.number is None else choice.number
         self.result = self.job.take(choice.job) if isinstance(choice.job, JobTable) else choice.job
-        self._shown = None
         self.tell_command(command)
         if self.result in FINAL and self.result is not self._logged:
             self._log(self.result)
@@ -94,22 +94,22 @@ class Controller:
 
     # -- what subclasses say -------------------------------------------------------------------------------------------
 
+    @abstractmethod
     def asked(self) -> int:
         """Return what the command field holds."""
-        raise NotImplementedError
 
+    @abstractmethod
     def choose(self, command: int) -> Choice:
         """Return what a new command means."""
-        raise NotImplementedError
 
+    @abstractmethod
     def publish(self, state: int, result: Progress) -> None:
         """Write the state field."""
-        raise NotImplementedError
 
+    @abstractmethod
     def tell_command(self, command: int) -> None:
         """Log that a command has come."""
-        raise NotImplementedError
 
+    @abstractmethod
     def changed(self, result: Progress) -> None:
         """Log the progress, and take up what follows from it."""
-        raise NotImplementedError

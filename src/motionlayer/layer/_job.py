@@ -130,6 +130,10 @@ class JobTable(Generic[J]):
         return f"<JobTable {self.name}>"
 
 
+NOTHING: Final[JobTable[Any]] = JobTable("NULL", [Transition(Progress.INIT, always, nothing, Progress.DONE)])
+"""What stands in a memory before the first command."""
+
+
 class Job:
     """What one caller remembers of a job: which it is, and its step. Conditions and actions are given the job.
 

@@ -81,7 +81,7 @@ class MotionLayer:
     @property
     def ready(self) -> bool:
         """All axes have been brought up: `MAIN_AXIS.eInit` is 10000."""
-        return self._axes.startup.done
+        return self._is_ready()
 
     def _is_ready(self) -> bool:
         return self._axes.startup.done

@@ -67,8 +67,10 @@ class Check:
         """Tell whether the program may copy; a new result is told in the log."""
         wrong = next((image for image in self._images if not image.fits), None)
         text = (DONE if self._images else NONE_ACTIVE) if wrong is None else f"{wrong.label} CHECK_ERROR"
-        if text != self.text:
+        if text != self.text or (wrong is not None and wrong.port.size != wrong.sizes[1]):
             self.shown.value = self.text = text
+            for image in self._images:
+                image.show_sizes()
             level, told = Level.INFO, f"{self._program}.sMappingCheck: {text}"
             if wrong is not None:
                 level = Level.ERROR
@@ -140,6 +142,8 @@ class ImageMapping:
     ) -> None:
         self.inputs = {one.name: one for one in inputs}
         self.outputs = {one.name: one for one in outputs}
+        self._reading = [one for one in inputs if one.images]
+        self._showing = [one for one in outputs if one.images]
         self._others = others
         read: list[Image] = [image for one in inputs for image in one.images]
         shown: list[Image] = [image for one in outputs for image in one.images]
@@ -194,12 +198,12 @@ class ImageMapping:
 
     def copy_in(self, tick: int) -> None:
         """Run the input programs; a stage of step INPUTS."""
-        for program in self.inputs.values():
+        for program in self._reading:
             program.run(tick)
 
     def copy_out(self, tick: int) -> None:
         """Run the output programs; a stage of step OUTPUTS."""
-        for program in self.outputs.values():
+        for program in self._showing:
             program.run(tick)
         for image in self._others:
             image.give()

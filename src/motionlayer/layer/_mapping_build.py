@@ -10,7 +10,7 @@ from motionlayer.layer._globals import Globals
 from motionlayer.layer._mapping import ORIGINAL, ImageMapping, InputProgram, MapOptions, OutputProgram
 from motionlayer.layer._mapping_image import CommandImage, Elements, InputImage, MirrorImage, OutputImage
 from motionlayer.layer._mapping_symbols import add_symbols
-from motionlayer.layer._mapping_table import INPUTS, OUTPUTS, SELECTOR, Row
+from motionlayer.layer._mapping_table import INPUTS, OUTPUTS, SELECTOR, SIMULATED, Row
 from motionlayer.layer._ownership import Access, Ownership
 from motionlayer.runtime import Areas, Mailbox
 
@@ -35,7 +35,7 @@ def layer_mapping(maps: Sequence[MapOptions], arrays: Arrays, outside: Outside) 
     for prefix in _prefixes(maps):
         name = f"{prefix}_in"
         images: list[InputImage] = []
-        for row, array, places in _rows(INPUTS, maps, prefix, arrays):
+        for row, array, places in _rows((*INPUTS, *SIMULATED), maps, prefix, arrays):
             assert isinstance(array, InputArray)
             area = outside.areas.add(f"{name}.{row.image}", array.size * len(places), outside=True)
             images.append(CommandImage(area, array, places, written=row.written))
@@ -62,7 +62,7 @@ def control_mapping(maps: Sequence[MapOptions], arrays: Arrays, outside: Outside
         name = f"{prefix}_out"
         shown = [
             _shown(f"{name}.{row.image}", array, places, outside)
-            for row, array, places in _rows(INPUTS, maps, prefix, arrays)
+            for row, array, places in _rows((*INPUTS, *SIMULATED), maps, prefix, arrays)
         ]
         outputs.append(OutputProgram(name, shown, outside.events))
     return ImageMapping(inputs, outputs, [])
@@ -74,6 +74,7 @@ def map_variables(
     variables: Globals,
     outside: Outside,
     ledger: Ledger,
+    simulated: Arrays,
 ) -> ImageMapping:
     """Return the images of all variables, which have owners and symbols from now on.
 
@@ -83,9 +84,10 @@ def map_variables(
         variables: of the layer.
         outside: where the images lie.
         ledger: the present tick, and who commands.
+        simulated: variables beside those, which have no owner: everybody may write them.
     """
     arrays = variables.arrays
-    mapping = build(maps, arrays, outside)
+    mapping = build(maps, {**arrays, **simulated}, outside)
     own(mapping, arrays, Access(outside.events, ledger))
     add_symbols(mapping, variables.symbols)
     return mapping
@@ -112,7 +114,7 @@ def _rows(
     rows: Sequence[Row], maps: Sequence[MapOptions], prefix: str, arrays: Arrays
 ) -> Iterator[tuple[Row, Variable[Any], Sequence[int]]]:
     """Yield the rows of a program, in the order of the table, with the elements that they hold."""
-    for row in rows:
+    for row in [row for row in rows if row.symbol in arrays]:
         for one in maps:
             if one.prefix == prefix and (row.group == one.group or (row.group == SELECTOR and one.selector)):
                 array = arrays[row.symbol]

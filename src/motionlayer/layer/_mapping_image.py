@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from motionlayer.iec import InputArray, Variable
+from motionlayer.iec import UDINT, InputArray, OutputArray, Variable
 from motionlayer.runtime import Area, Mailbox
 
 
@@ -82,14 +82,13 @@ class Elements:
         else:
             self._rows[self._places] = np.frombuffer(data, np.uint8).reshape(-1, self.size)
 
-    def overwrite(self, new: bytes, old: bytes) -> list[int]:
-        """Overwrite those in which two images differ; return their places in the array."""
+    def overwrite(self, new: bytes, old: bytes) -> tuple[list[int], bytes]:
+        """Overwrite those in which two images differ; return their places in the array, and their new bytes."""
         fresh = np.frombuffer(new, np.uint8).reshape(-1, self.size)
         changed = (fresh != np.frombuffer(old, np.uint8).reshape(-1, self.size)).any(axis=1)
-        places = self._places[changed]
-        self._rows[places] = fresh[changed]
-        found: list[int] = places.tolist()
-        return found
+        places, rows = self._places[changed], fresh[changed]
+        self._rows[places] = rows
+        return places.tolist(), rows.tobytes()
 
 
 class Image:
@@ -98,12 +97,19 @@ class Image:
     Args:
         area: its bytes, named `MAPPING_AXIS_in.AxisCtrl`.
         partner: what it is copied to or from.
+
+    Attributes:
+        area, partner: as given.
+        port: where a bus attaches its memory.
+        sizes: `szAxisCtrl`, bytes of the image and of its partner.
     """
 
     def __init__(self, area: Area, partner: Elements) -> None:
         self.area = area
         self.partner = partner
         self.port = Port()
+        self.sizes: OutputArray[int] = OutputArray(UDINT, 1, 2, self.name.replace(".", ".sz", 1))
+        self.show_sizes()
 
     @property
     def name(self) -> str:
@@ -120,6 +126,11 @@ class Image:
         """What is attached has the size of its partner."""
         memory = self.port.memory
         return memory is None or len(memory) == self.area.size
+
+    def show_sizes(self) -> None:
+        """Show the bytes of the image, those of the bus where one is attached, and of its partner."""
+        size = self.port.size
+        self.sizes[1], self.sizes[2] = self.area.size if size is None else size, len(self.partner)
 
 
 class InputImage(Image, ABC):
@@ -179,7 +190,7 @@ class CommandImage(InputImage):
         self._taken = new
         if new == old:
             return
-        self.array.decode(self.partner.overwrite(new, old))
+        self.array.decode(*self.partner.overwrite(new, old))
 
 
 class MirrorImage(InputImage):

@@ -7,7 +7,6 @@ from typing import Any, Final, NoReturn, cast
 from motionlayer.iec import (
     BOOL,
     BYTE,
-    UDINT,
     Array,
     Bytes,
     Field,
@@ -19,9 +18,9 @@ from motionlayer.iec import (
 )
 from motionlayer.layer._mapping import ORIGINAL, ImageMapping, InputProgram, OutputProgram
 from motionlayer.layer._mapping_image import Image, InputImage
-from motionlayer.layer._mapping_table import GROUPS, INPUTS, OUTPUTS
+from motionlayer.layer._mapping_table import GROUPS, INPUTS, OUTPUTS, SIMULATED
 
-_GROUP_OF: Final = {row.image: row.group for row in (*INPUTS, *OUTPUTS)}
+_GROUP_OF: Final = {row.image: row.group for row in (*INPUTS, *SIMULATED, *OUTPUTS)}
 
 
 class ImageSource:
@@ -69,9 +68,7 @@ def _add_program(symbols: SymbolTable, program: InputProgram | OutputProgram) ->
     for image in program.images:
         if not image.name.startswith(program.name):  # of MAIN_AXIS, which has a symbol of its own
             continue
-        sizes: OutputArray[int] = OutputArray(UDINT, 1, 2, f"{program.name}.sz{image.label}")
-        sizes[1], sizes[2] = image.area.size, len(image.partner)
-        _add(symbols, program, sizes, "bytes of the image, and of its partner")
+        _add(symbols, program, image.sizes, "bytes of the image, and of its partner")
         name, comment = image.name, "image of the other side" if isinstance(image, InputImage) else "image"
         symbols.add(name, ImageSource(image), comment=comment, aliases=_aliases(name))
 

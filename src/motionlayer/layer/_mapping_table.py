@@ -51,6 +51,9 @@ INPUTS: Final = (
 )
 """Images that controllers write."""
 
+SIMULATED: Final = (Row("axis", "DriveFault", "GVL_SIMULATION.DriveFault"),)
+"""Images behind these that the original has not: they reach what only a simulated machine has."""
+
 OUTPUTS: Final = (
     Row("axis", "AxisState", "GVL_AXIS.State"),
     Row("axis", "AxisInfo", "GVL_AXIS.Info"),

@@ -8,7 +8,7 @@ events ─┬─ levels ─ queue ─ thread ─ file            record.log: com
 """
 
 from collections.abc import Callable
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import TYPE_CHECKING, Final
 
 from motionlayer.event import Lists, MessageList
@@ -22,8 +22,12 @@ if TYPE_CHECKING:
     from motionlayer.event import Event, EventLog, Levels
     from motionlayer.layer._message_globals import MessageGlobals
 
+DAY: Final = 10
 SECONDS: Final = 19
-"""Characters of a local time without its milliseconds."""
+"""Characters of the date, and of a local time without its milliseconds."""
+
+REFRESH: Final = 0.010
+"""Seconds after which the local time is shown anew; a message has the time of its tick."""
 
 
 class Messages:
@@ -61,7 +65,9 @@ class Messages:
         self._starting = True
         self._local_time = variables.local_time
         self._local_date = variables.local_date
+        self._refresh = max(1, round(REFRESH / cycle_time))
         self._second = ""
+        self._next = 0
         events.listen(self._add)
 
     def stage(self) -> Stage:
@@ -74,6 +80,7 @@ class Messages:
             of = self._lists[event.device]
             if of is not None:
                 self._slots[of].add(event)
+                self._next = 0
 
     def _cycle(self, tick: int) -> None:
         """Show what has come in this tick."""
@@ -81,15 +88,18 @@ class Messages:
         if self._starting and self._ready():
             self._starting = False
             self._level_variables.end_of_start()
-        self._tell_time(self._time(tick))
-        for writer in self._writers:
-            writer.cycle()
-        for slots in self._slots.values():
-            slots.put_down()
+        if tick % self._refresh == 0:
+            self._tell_time(self._time(tick))
+        if tick >= self._next:
+            for writer in self._writers:
+                writer.cycle()
+            for slots in self._slots.values():
+                slots.put_down()
+            self._next = min(writer.due for writer in self._writers)
 
     def _tell_time(self, text: str) -> None:
         self._local_time.memory[: len(text)] = text.encode()
         if text[:SECONDS] != self._second:
             self._second = text[:SECONDS]
-            at = datetime.strptime(self._second, "%Y-%m-%d-%H:%M:%S").replace(tzinfo=UTC)
+            at = datetime.fromisoformat(f"{text[:DAY]}T{text[DAY + 1 : SECONDS]}+00:00")
             self._local_date.value = int(at.timestamp())

@@ -61,16 +61,16 @@ class LevelVariables:
         self._show_all()
 
     def take(self) -> None:
-        """Take up what clients have written."""
-        if self._all.touched:
-            self._all.take()
-            self._levels.level = self._checked(self._all, None)
-            self._show_all()
+        """Take up what clients have written; that of objects first, since the level of all is shown for the others."""
         for array in self._arrays:
             if array.touched:
                 for index in array.take():
                     self._own[array.name, index] = None
                     self._put(array, index, self._checked(array, index))
+        if self._all.touched:
+            self._all.take()
+            self._levels.level = self._checked(self._all, None)
+            self._show_all()
 
     def _put(self, array: InputArray[int], index: int, level: Level | None) -> None:
         """Let a level hold for an object; ids end with the block (D47)."""

@@ -98,6 +98,11 @@ class MessageWriter(Controller):
         """Plain 0 without a command, else as of every object."""
         return 0 if self.command == MessageCommand.NULL else super().state
 
+    @property
+    def due(self) -> int:
+        """The tick in which there is something to do again, unless a message comes before."""
+        return 0 if self.command else self._due
+
     def cycle(self) -> None:
         """Do the work of one cycle: give the writer its commands, and carry them out."""
         if not self.command:

@@ -16,7 +16,7 @@ from motionlayer.event import BLOCK, Device, Event, EventLog, Kind, Level, Subde
 from motionlayer.iec import Enumeration, Struct
 from motionlayer.layer._answer import ObjectState
 from motionlayer.layer._controller import LARGEST
-from motionlayer.layer._job import Job, JobTable, Transition, always, nothing
+from motionlayer.layer._job import NOTHING, Job, JobTable
 from motionlayer.layer.types._progress import Progress
 
 C = TypeVar("C", bound=Struct)
@@ -24,9 +24,6 @@ S = TypeVar("S", bound=Struct)
 
 NULL: Final = 0
 """The command that is none, in every namespace."""
-
-NOTHING: Final[JobTable[Any]] = JobTable("NULL", [Transition(Progress.INIT, always, nothing, Progress.DONE)])
-"""What stands in a memory before the first command."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +42,7 @@ class Namespace(Generic[C, S]):
 
     Raises:
         TypeError: a structure lacks its member, or `cmd` is of no enumeration.
-        ValueError: a command has no room in a state, or a job none among the commands.
+        ValueError: the name is none, a command has no room in a state, or a job none among the commands.
     """
 
     name: str
@@ -57,6 +54,8 @@ class Namespace(Generic[C, S]):
     subdevice: Subdevice = Subdevice.General
 
     def __post_init__(self) -> None:
+        if not (self.name.isidentifier() and self.name.isascii()):
+            raise ValueError(f"namespace {self.name!r}: letters, digits and underscores, not beginning with a digit")
         commands = self.commands
         state = next((one for one in self.state.type.fields if one.attribute == "state"), None)
         if state is None or state.type.size < 2:
@@ -162,6 +161,7 @@ def after(seconds: float) -> Callable[[NamespaceJob[Any, Any]], bool]:
     def has_lasted(job: NamespaceJob[Any, Any]) -> bool:
         return job.elapsed_ns >= least
 
+    has_lasted.__name__ = f"after {seconds:g} s"  # what a diagram shows
     return has_lasted
 
 

@@ -7,6 +7,7 @@ from motionlayer.event import Level
 from motionlayer.layer._controller import LARGEST, Choice, Controller
 from motionlayer.layer._namespace import NULL, NamespaceJob
 from motionlayer.layer.types._progress import Progress
+from motionlayer.runtime import describe
 
 FAILED: Final = frozenset({Progress.ERROR, Progress.NOT_EXIST})
 """Results that have the number of an error."""
@@ -33,6 +34,20 @@ class NamespaceController(Controller):
         self._commands = self._namespace.commands
         self._shows_error = hasattr(job.state, "error_id")
 
+    def call(self) -> bool:
+        """Do the work of one cycle; an exception that leaves a condition or an action ends the job with an error."""
+        try:
+            return super().call()
+        except Exception as failure:  # noqa: BLE001 - a fault in a program never stops the cycle
+            self.memory.error = ErrorId.PROGRAM_FAILED
+            self.memory.tell(Level.ERROR, f"{self._name}: {describe(failure)}", ErrorId.PROGRAM_FAILED)
+            self.result = Progress.ERROR
+            self._log(Progress.ERROR)
+            if self._shown is None:  # it could not be prepared: the answer still comes in this cycle
+                self._shown = Progress.ERROR
+                self.publish(self.state, Progress.ERROR)
+            return True
+
     def asked(self) -> int:
         """Return what the command field holds."""
         return int(self._ctrl.cmd)
@@ -45,7 +60,7 @@ class NamespaceController(Controller):
         job = self._namespace.jobs.get(command)
         if job is not None:
             return Choice(job)
-        self.memory.error = ErrorId.COMMAND_NOT_PERMITTED
+        self.memory.error = ErrorId.FUNCTION_UNSUPPORTED
         if command in self._commands.members._value2member_map_:
             return Choice(Progress.NOT_EXIST)
         self.memory.tell(Level.ERROR, f"{self._name}: PROGRESS_INVALID", command)

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, Final, Generic, TypeVar
 
+from motionlayer.iec import OutputArray
 from motionlayer.layer._answer import ObjectState, Waits
 from motionlayer.layer._globals import AxisGlobals
 from motionlayer.layer.types import (
@@ -132,18 +133,26 @@ PARTS: Final = {
 """What an `AxisObject` has, and the variable of `GVL_AXIS` it is an element of."""
 
 
-def axis_objects(names: Sequence[str], variables: AxisGlobals, waits: Waits) -> Objects[AxisObject]:
+def axis_objects(
+    names: Sequence[str], variables: AxisGlobals, waits: Waits, *, by_layer: bool = False
+) -> Objects[AxisObject]:
     """Return the axes as control programs use them, on either side.
 
     Args:
         names: of the axes, in the order of their indices.
         variables: `GVL_AXIS`.
         waits: of the layer.
+        by_layer: they are for the layer itself, which writes what programs can only read: states and Info.
     """
+
+    def part(of: str, index: int) -> Any:  # noqa: ANN401 - the structures of `AxisObject`
+        array = getattr(variables, of)
+        return array.shown(index) if isinstance(array, OutputArray) and not by_layer else array[index]
+
     return Objects(
         "axis",
         {
-            name: axis_object(index, name, {key: getattr(variables, of)[index] for key, of in PARTS.items()}, waits)
+            name: axis_object(index, name, {key: part(of, index) for key, of in PARTS.items()}, waits)
             for index, name in enumerate(names, 1)
         },
     )

@@ -117,7 +117,7 @@ def trouble(job: AxisJob) -> bool:
 
 def last_trouble(job: AxisJob) -> bool:
     """Condition: the last attempt that is allowed has not come about either."""
-    return trouble(job) and job.attempts >= job.port.max_retry
+    return trouble(job) and job.attempts > job.port.max_retry
 
 
 def count_trouble(job: AxisJob) -> None:

@@ -5,6 +5,9 @@ table, relations between tables are checked beside the models, and all problems 
 each with file, line, field, value and what is allowed. This is the only part that knows all others.
 """
 
+from motionlayer.connect.ads import ServerFailed
+from motionlayer.machine._ads_description import AdsDescription
+from motionlayer.machine._ads_link import AdsLink, LinkError, ReadWrite
 from motionlayer.machine._description import Description
 from motionlayer.machine._drive_symbols import DriveFault
 from motionlayer.machine._errors import Finding, MachineError, OldName
@@ -14,6 +17,7 @@ from motionlayer.machine._log_description import LogDescription
 from motionlayer.machine._loopback import Loopback
 from motionlayer.machine._machine import Machine
 from motionlayer.machine._machine_run import MachineRun
+from motionlayer.machine._mqtt_description import MqttDescription
 from motionlayer.machine._programs import Loaded, ProgramError, Source, load_program, parse_source, sources_of
 from motionlayer.machine._realtime import REALTIME_PATIENCE, RealTime
 from motionlayer.machine._recorded import ReplayError
@@ -24,9 +28,12 @@ from motionlayer.machine._simulation import Simulation
 
 __all__ = [
     "REALTIME_PATIENCE",
+    "AdsDescription",
+    "AdsLink",
     "Description",
     "DriveFault",
     "Finding",
+    "LinkError",
     "Loaded",
     "LogDescription",
     "Loopback",
@@ -34,13 +41,16 @@ __all__ = [
     "MachineError",
     "MachineFile",
     "MachineRun",
+    "MqttDescription",
     "OldName",
     "ProgramError",
+    "ReadWrite",
     "RealTime",
     "RealTimeKeywords",
     "Replay",
     "ReplayError",
     "RunKeywords",
+    "ServerFailed",
     "Simulation",
     "SimulationKeywords",
     "Source",

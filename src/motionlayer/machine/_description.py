@@ -9,6 +9,7 @@ from typing import Literal
 from pydantic import Field, field_validator
 from pydantic_core import PydanticCustomError
 
+from motionlayer.machine._ads_description import AdsDescription
 from motionlayer.machine._axis_description import AxisDescription
 from motionlayer.machine._drive_description import (
     FaultDescription,
@@ -135,6 +136,9 @@ class Description(Table):
     )
     control: ControlDescription | None = Field(
         default=None, description="Ctrl and State of the motion layer of another machine; not beside `[layer]`."
+    )
+    ads: AdsDescription | None = Field(
+        default=None, description="The ADS server, by which other programs reach the symbols; none without this table."
     )
     log: LogDescription | None = Field(default=None, description="The message files; none without this table.")
     trace: TraceDescription = Field(default_factory=TraceDescription, description="What a trace records.")

@@ -6,7 +6,7 @@ drive fails in the next tick. NONE takes nothing back; it makes the next command
 
 import enum
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 from motionlayer.drive import Fault, FaultKind, ServoDrives
 from motionlayer.event import Event, EventLog, Kind, Level, Subdevice
@@ -42,23 +42,35 @@ class DriveFaultCtrl(Struct, iec="ST_DRIVE_FAULT", pack=2):
     duration = Field("rDuration", LREAL, "how long (s); 0: until it is reset, or for good")
 
 
+Faults: TypeAlias = InputArray[DriveFaultCtrl]
+
+
+def fault_variable(axes: int) -> Faults:
+    """Return the variable for a number of axes; a control side has it too, and its images carry it over."""
+    return InputArray(DriveFaultCtrl, 1, axes, NAME)
+
+
+def add_symbol(symbols: "SymbolTable", faults: Faults) -> None:
+    """Give the variable its name."""
+    symbols.add(NAME, faults, comment="what goes wrong with a simulated drive; a change is a command")
+
+
 class DriveFaults:
-    """The variable, and who looks at it.
+    """Looks at the variable.
 
     Args:
         servos: the drives that can fail.
         names: of all axes, in the order of their columns.
-        symbols: where the variable gets its name.
+        faults: the variable.
         events: where faults are told that cannot be.
     """
 
-    def __init__(self, servos: ServoDrives, names: Sequence[str], symbols: "SymbolTable", events: EventLog) -> None:
+    def __init__(self, servos: ServoDrives, names: Sequence[str], faults: Faults, events: EventLog) -> None:
         self._servos = servos
         self._names = names
         self._events = events
-        self._array = InputArray(DriveFaultCtrl, 1, len(names), NAME)
+        self._array = faults
         self._last = [int(DriveFault.NONE)] * len(names)
-        symbols.add(NAME, self._array, comment="what goes wrong with a simulated drive; a change is a command")
 
     def stage(self) -> Stage:
         """Return what a tick calls."""

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from motionlayer.event import Level
-from motionlayer.iec import SymbolTable
+from motionlayer.iec import Symbol, SymbolTable
 from motionlayer.layer import (
     NAMESPACES,
     ControlSide,
@@ -21,8 +21,9 @@ from motionlayer.layer import (
     layer_mapping,
     map_variables,
 )
-from motionlayer.machine._drive_symbols import DriveFaults
+from motionlayer.machine._drive_symbols import DriveFaults, add_symbol, fault_variable
 from motionlayer.machine._layer_description import ControlDescription, LayerDescription, MapDescription
+from motionlayer.machine._outside import LINK, Told
 from motionlayer.machine._resetting import ResettableRun
 from motionlayer.runtime import Stage, Step
 
@@ -55,6 +56,10 @@ class LayeredRun(ResettableRun):
     def symbols(self) -> SymbolTable:
         """All variables of the motion layer by name; see `layer`."""
         return self.layer.symbols
+
+    def _known_symbols(self) -> Iterable[Symbol]:
+        """Return all variables, of a machine without a motion layer none."""
+        return () if self._layer is None else self._layer.symbols
 
     @property
     def mapping(self) -> ImageMapping:
@@ -101,9 +106,11 @@ class LayeredRun(ResettableRun):
         options = layer_options(described, len(refs))
         layer = MotionLayer(list(refs.values()), images, self.events, self._ledger, options)
         maps = layer_maps(described, list(refs))
-        mapping = map_variables(layer_mapping, maps, layer.globals, outside, self._ledger)
+        faults = fault_variable(len(refs))
+        mapping = map_variables(layer_mapping, maps, layer.globals, outside, self._ledger, {faults.name: faults})
+        add_symbol(layer.symbols, faults)
         self._layer, self._mapping = layer, mapping
-        self._faults = DriveFaults(self._servos, list(refs), layer.symbols, self.events)
+        self._faults = DriveFaults(self._servos, list(refs), faults, self.events)
         return [
             Stage(Step.INPUTS, "MAPPING_in", mapping.copy_in),
             *layer.stages(),
@@ -132,7 +139,10 @@ class LayeredRun(ResettableRun):
 
     def _add_control(self, described: ControlDescription, outside: Outside) -> Sequence[Stage]:
         sizes, maps = layer_sizes(described, len(described.axes)), control_maps(described)
-        control = ControlSide(described.axes, sizes, maps, outside, self._ledger)
+        faults = fault_variable(len(described.axes))
+        control = ControlSide(described.axes, sizes, maps, outside, self._ledger, {faults.name: faults})
+        add_symbol(control.symbols, faults)
+        self.mailbox.register(LINK, Told(self.events, self._ledger, "link"))
         self._layer, self._mapping = control, control.mapping
         return control.stages()
 

@@ -1,15 +1,15 @@
 """`Loopback`: machines in one process whose images are wired to one another, as a fieldbus or a shared memory would.
 
 In each cycle the controllers run first; what they have written reaches the motion machine in the same cycle, and what
-that answers reaches them in their next one. Everything happens in one thread and in the order of the cycle, so that the
-runs are as repeatable as one alone. What is carried is an input of the area that it is carried to: each machine can be
-replayed from its own trace.
+that answers reaches them in their next one. Commands are carried from the end of the first start-up on. Everything
+happens in one thread and in the order of the cycle, so that the runs are as repeatable as one alone. What is carried is
+an input of the area that it is carried to: each machine can be replayed from its own trace.
 """
 
 from collections.abc import Coroutine, Mapping
 from typing import Any, Final, NamedTuple
 
-from motionlayer.layer import ORIGINAL, START
+from motionlayer.layer import ORIGINAL, START, ControlSide
 from motionlayer.machine._machine_run import MachineRun
 from motionlayer.runtime import Area
 
@@ -28,7 +28,11 @@ class _Wire:
             self._target.post(data)
 
 
-class _Wires(NamedTuple):
+class _Control(NamedTuple):
+    """A control machine, and what it is wired by."""
+
+    run: MachineRun
+    side: ControlSide
     commands: list[_Wire]
     states: list[_Wire]
 
@@ -49,12 +53,8 @@ class Loopback:
     def __init__(self, motion: MachineRun, controls: MachineRun | Mapping[str, MachineRun]) -> None:
         self._motion = motion
         named = {ORIGINAL: controls} if isinstance(controls, MachineRun) else controls
-        self._controls: Final = list(named.values())
-        for control in self._controls:
-            _require_pair(motion, control)
-        pairs = [_wires(motion, control, prefix) for prefix, control in named.items()]
-        self._commands = [wire for pair in pairs for wire in pair.commands]
-        self._states = [wire for pair in pairs for wire in pair.states]
+        sides = {prefix: _require_pair(motion, control) for prefix, control in named.items()}
+        self._controls: Final = [_wired(motion, named[prefix], side, prefix) for prefix, side in sides.items()]
 
     def step(self, ticks: int = 1) -> None:
         """Run a number of cycles of all machines.
@@ -63,13 +63,16 @@ class Loopback:
             CycleFault: a step of the runtime itself failed.
         """
         for _ in range(ticks):
-            for control in self._controls:
-                control.step()
-            for wire in self._commands:
-                wire.carry()
+            for one in self._controls:
+                one.run.step()
+            for one in self._controls:
+                if one.side.given is not None:
+                    for wire in one.commands:
+                        wire.carry()
             self._motion.step()
-            for wire in self._states:
-                wire.carry()
+            for one in self._controls:
+                for wire in one.states:
+                    wire.carry()
 
     def run(self, program: Coroutine[Any, Any, Any] | None = None, *, time: float | None = None) -> bool:
         """Run until all programs of all machines have ended and no axis brakes, or the time is over.
@@ -85,9 +88,9 @@ class Loopback:
             CycleFault: a step of the runtime itself failed.
         """
         motion = self._motion
-        main = self._controls[0].start(program) if program is not None else None
+        main = self._controls[0].run.start(program) if program is not None else None
         end = None if time is None else motion.time + time
-        runs = [*self._controls, motion]
+        runs = [*(one.run for one in self._controls), motion]
         while not all(run.idle for run in runs) and (end is None or motion.time < end - 0.5e-9 * motion.base_cycle_ns):
             self.step()
         if main is not None and main.failure is not None:
@@ -95,8 +98,8 @@ class Loopback:
         return all(run.idle for run in runs)
 
 
-def _require_pair(motion: MachineRun, control: MachineRun) -> None:
-    """Refuse runs that cannot be wired.
+def _require_pair(motion: MachineRun, control: MachineRun) -> ControlSide:
+    """Return the control side; refuse runs that cannot be wired.
 
     Raises:
         TypeError: one is not of its kind.
@@ -104,17 +107,18 @@ def _require_pair(motion: MachineRun, control: MachineRun) -> None:
     """
     if motion.machine.description.layer is None:
         raise TypeError(f"{motion.machine.name} has no motion layer: its machine file needs [layer]")
-    if control.machine.description.control is None:
+    if control.machine.description.control is None or not isinstance(control.layer, ControlSide):
         raise TypeError(f"{control.machine.name} is no control side: its machine file needs [control]")
     if motion.base_cycle_ns != control.base_cycle_ns:
         raise ValueError(
             f"base_cycle_ns: {motion.base_cycle_ns} in {motion.machine.name}, {control.base_cycle_ns} in "
             f"{control.machine.name}; machines that are stepped together have the same"
         )
+    return control.layer
 
 
-def _wires(motion: MachineRun, control: MachineRun, prefix: str) -> _Wires:
-    """Return the wires between a map and a control side."""
+def _wired(motion: MachineRun, control: MachineRun, side: ControlSide, prefix: str) -> _Control:
+    """Return a control machine with the wires between it and a map."""
     here, there = f"{prefix}_", f"{ORIGINAL}_"
     commands = {name: name.replace(there, here, 1) for name in control.areas if name.startswith(f"{there}out.")}
     states = {name: name.replace(there, here, 1) for name in control.areas if name.startswith(f"{there}in.")}
@@ -122,7 +126,9 @@ def _wires(motion: MachineRun, control: MachineRun, prefix: str) -> _Wires:
     up = [(name, partner.replace("_in.", "_out.", 1)) for name, partner in states.items()] + [(START, START)]
     for name, partner in (*down, *up):
         _require_partner(motion, control, name, partner)
-    return _Wires(
+    return _Control(
+        control,
+        side,
         [_Wire(control.areas[name], motion.areas[partner]) for name, partner in down],
         [_Wire(motion.areas[partner], control.areas[name]) for name, partner in up],
     )

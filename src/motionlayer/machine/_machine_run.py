@@ -14,8 +14,10 @@ import numpy as np
 from motionlayer.command import Command, all_of
 from motionlayer.drive import Fault
 from motionlayer.fb import AXIS_REF
+from motionlayer.machine._ads_axes import AdsAxes
+from motionlayer.machine._ads_description import AdsDescription
+from motionlayer.machine._ads_run import ServedRun
 from motionlayer.machine._build import Parts, build
-from motionlayer.machine._layering import LayeredRun
 from motionlayer.machine._logging import Logging
 from motionlayer.machine._machine import Machine
 from motionlayer.machine._outside import EMERGENCY_STOP, INJECT, pack_fault, unpack_fault
@@ -39,10 +41,10 @@ class Axes(dict[str, V]):
     def __missing__(self, name: str) -> NoReturn:
         near = difflib.get_close_matches(name, self, n=1)
         hint = f"; did you mean {near[0]!r}?" if near else ""
-        raise KeyError(f"no axis {name!r}; this machine has {', '.join(self)}{hint}")
+        raise KeyError(f"no axis {name!r}; this machine has {', '.join(self) or 'none'}{hint}")
 
 
-class MachineRun(LayeredRun):
+class MachineRun(ServedRun):
     """A run of a machine; what `Simulation` and `RealTime` have in common, and raise when they are made.
 
     Args:
@@ -54,6 +56,7 @@ class MachineRun(LayeredRun):
         LogError: the message files cannot be written.
         MachineError: the file of persistent parameters means nothing.
         ProgramError: a program of the machine description cannot be loaded.
+        ServerFailed: the ADS server cannot begin.
         TraceError: the trace file cannot be written.
     """
 
@@ -86,7 +89,8 @@ class MachineRun(LayeredRun):
         )
         self._connect(parts)
         self._persistence = None if kept is None else Persistence(kept, lambda: self.axis_refs, self.mailbox)
-        self._arrange([*stages, *self._add_layer(lambda: self.axis_refs, parts.stage)])
+        layer = self._add_layer(lambda: self.axis_refs, parts.stage)
+        self._arrange([*stages, *layer, self._open_ads(asked["ads"], own_process=not lossless)])
         for program in loaded:
             program.start(self)
 
@@ -105,6 +109,17 @@ class MachineRun(LayeredRun):
         try:
             return Tracing(self.machine, parts, self.seed, programs, path, keep=trace is not False, lossless=lossless)
         except BaseException:
+            self.log.close()
+            raise
+
+    def _open_ads(self, choice: AdsDescription | bool, *, own_process: bool) -> Stage:
+        """Return the stage of the ADS server; if that cannot begin, the files are closed again."""
+        try:
+            axes = AdsAxes(self._known_symbols, lambda: self.axis_refs, self._stage.images, self._ledger)
+            return self._add_ads(choice, axes, own_process=own_process)
+        except BaseException:
+            if self._tracing is not None:
+                self._tracing.close(self._how_ended())
             self.log.close()
             raise
 
@@ -218,6 +233,7 @@ class MachineRun(LayeredRun):
         self._closed = True
         self._scheduler.cancel_all()
         self.mailbox.close()
+        self.ads.close()
         try:
             return self._tracing.close(self._how_ended()) if self._tracing is not None else ""
         finally:

@@ -17,6 +17,9 @@ INJECT: Final = "inject"
 EMERGENCY_STOP: Final = "emergency_stop"
 """The channel of emergency stops; its payload is empty."""
 
+LINK: Final = "link"
+"""The channel by which the link of a control side tells that its connection is broken."""
+
 
 def pack_fault(axis: str, fault: Fault, tick: int) -> bytes:
     """Return the payload of `INJECT`."""

@@ -30,6 +30,7 @@ class RealTime(MachineRun):
         LogError: the message files cannot be written.
         MachineError: the file of persistent parameters means nothing.
         ProgramError: a program of the machine description cannot be loaded.
+        ServerFailed: the ADS server cannot begin.
         TraceError: the trace file cannot be written.
         TypeError: it is no machine, or there is no such keyword.
         ValueError: the speed is out of range.
@@ -89,6 +90,7 @@ class RealTime(MachineRun):
     def _set_off(self) -> None:
         super()._set_off()
         self.log.align(self.tick)
+        self.ads.time.align(self.tick)
 
     def _idle(self, spare_ns: int) -> None:
         self._meter.forget()
@@ -96,6 +98,7 @@ class RealTime(MachineRun):
 
     def _slipped(self, ns: int) -> None:
         self.log.slip(ns)
+        self.ads.time.slip(ns)
 
     def _late(self, ticks: int) -> None:
         name, ns = self._meter.slowest()

@@ -23,7 +23,7 @@ def rehearse(machine: Machine) -> None:
     plain = {"axis", "base_cycle_ns", "format", "group", "name"}
     whole = machine.description
     fields = {name: getattr(whole, name) for name in plain}
-    with Simulation(Machine(type(whole)(**fields), machine.folder), programs=(), log=False) as run:
+    with Simulation(Machine(type(whole)(**fields), machine.folder), programs=(), log=False, ads=False) as run:
         kinds = {(entry.drive.kind, entry.home.mode): run.axes[name] for name, entry in whole.axis.items()}
         for axis in kinds.values():
             for command in _commands(axis):

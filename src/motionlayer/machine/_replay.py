@@ -90,7 +90,7 @@ def replay(
         loaded, notes = load_recorded(trace, folder or Path(), instead)
     else:
         loaded, notes = [one if isinstance(one, Loaded) else function_program(one) for one in programs], []
-    run = Simulation(machine, seed=trace.header["seed"], programs=loaded, log=False)
+    run = Simulation(machine, seed=trace.header["seed"], programs=loaded, log=False, ads=False)
     try:
         _play(run, trace, part, watch)
     finally:

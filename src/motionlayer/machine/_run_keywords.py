@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final, TypedDict
 
 from motionlayer.command import only_known
+from motionlayer.machine._ads_description import AdsDescription
 from motionlayer.machine._log_description import LogDescription
 from motionlayer.machine._machine import Machine
 from motionlayer.machine._programs import Loaded
@@ -22,6 +23,7 @@ class RunKeywords(TypedDict, total=False):
         patience: wall time after which a program that does not yield ends the run, s; where left out 10, in real time
             1.
         log: the message files; True, as where left out: as the machine description says, False: none.
+        ads: the ADS server; likewise.
     """
 
     seed: int | None
@@ -29,6 +31,7 @@ class RunKeywords(TypedDict, total=False):
     programs: Sequence[Loaded] | None
     patience: float
     log: LogDescription | bool
+    ads: AdsDescription | bool
 
 
 class SimulationKeywords(RunKeywords, total=False):
@@ -57,7 +60,9 @@ class RealTimeKeywords(RunKeywords, total=False):
     clock: Clock
 
 
-USUAL: Final[RunKeywords] = {"seed": None, "trace": True, "programs": None, "patience": PATIENCE, "log": True}
+USUAL: Final[RunKeywords] = {
+    "seed": None, "trace": True, "programs": None, "patience": PATIENCE, "log": True, "ads": True,
+}  # fmt: skip
 """What holds where a keyword is left out."""
 
 

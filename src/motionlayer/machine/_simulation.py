@@ -19,6 +19,7 @@ class Simulation(MachineRun):
         LogError: the message files cannot be written.
         MachineError: the file of persistent parameters means nothing.
         ProgramError: a program of the machine description cannot be loaded.
+        ServerFailed: the ADS server cannot begin.
         TraceError: the trace file cannot be written.
         TypeError: it is no machine, or there is no such keyword.
     """

@@ -52,6 +52,7 @@ class AxisRefs:
         nc_to_plc: structured array `NCTOPLC_AXIS_REF`, one element per axis.
         plc_to_nc: structured array `PLCTONC_AXIS_REF`, one element per axis.
         switches: reference switches of the drives, one element per axis; 1.0 is on.
+        overrides: velocity overrides in force, one element per axis, 0 to 1.
         cycle_time: s.
     """
 
@@ -60,6 +61,7 @@ class AxisRefs:
         self.nc_to_plc: NDArray[Any] = np.zeros(count, dtype=NCTOPLC_AXIS_REF)
         self.plc_to_nc: NDArray[Any] = np.zeros(count, dtype=PLCTONC_AXIS_REF)
         self.switches: NDArray[np.float64] = store.table[Q.HOME_INPUT, :count]
+        self.overrides: NDArray[np.float64] = store.table[Q.OVERRIDE, :count]
         self.cycle_time = store.dt
         self._store = store
         raw = self.nc_to_plc.view(np.uint8).reshape(count, NCTOPLC_AXIS_REF.itemsize)

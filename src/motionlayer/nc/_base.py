@@ -152,7 +152,7 @@ class AxisBase:
         return command
 
     def _fail(self, command: AxisCommand, error: MotionError) -> None:
-        self._tell_of(command, Level.ERROR, Kind.ERROR, ERRORS[error.id].text, error.id)
+        self._tell_of(command, Level.ERROR, Kind.ERROR, f"{command.name}: {ERRORS[error.id].text}", error.id)
         command.fail(error)
 
     def _end(self, command: AxisCommand, by: Command[None] | None = None) -> None:

@@ -102,7 +102,7 @@ class AxisBraking(AxisSubmission):
         limits = self._dynamics(command, asked)
         if limits is None:
             return None
-        running, (_, _, deceleration, jerk) = self._running(), asked
+        running, (_, _, deceleration, jerk) = self._chained(), asked
         return running._replace(
             deceleration=max(running.deceleration, limits.deceleration if deceleration is not None else 0.0),
             jerk=max(running.jerk, limits.jerk if jerk is not None else 0.0),

@@ -1,7 +1,7 @@
 """The buffer of an axis: one command runs, one waits for it.
 
 The plan of the waiting one is appended to the row of the axis at acceptance, so that the change costs no time: it
-happens at the exact instant inside the cycle. The rules of the joint are those of `_ways`; what can be commanded when
+happens at the exact instant inside the cycle. How both are planned is told in `_chaining`; what can be commanded when
 is function-blocks 2.8, and record 25 where that leaves a choice. A change of the override plans both anew.
 """
 
@@ -11,13 +11,12 @@ from typing import TYPE_CHECKING
 from motionlayer.command import Command, ErrorId, Ledger, MotionError
 from motionlayer.event import EventLog
 from motionlayer.nc._axis_ref import BUFFERED
+from motionlayer.nc._chaining import AxisChaining, stronger
 from motionlayer.nc._config import AxisConfig, BufferMode
 from motionlayer.nc._follower import Buffering, Follower
-from motionlayer.nc._joints import joint_speeds
 from motionlayer.nc._limits import bad_target, unplanned
 from motionlayer.nc._motion import DEFINITE, SCALED, AxisCommand, Job, JobKind, Refusal
-from motionlayer.nc._planning import AxisPlanning
-from motionlayer.nc._ways import Point, Way, arrival, scaled, through, way_of
+from motionlayer.nc._ways import Point, Way, arrival, scaled, way_of
 from motionlayer.profile import PlanError
 from motionlayer.store import JOB_BRAKE, JOB_COMPOUND, Ended, Q, Store
 
@@ -25,12 +24,11 @@ if TYPE_CHECKING:
     from motionlayer.nc._monitors import Monitors
 
 
-class AxisBuffer(AxisPlanning):
+class AxisBuffer(AxisChaining):
     """The buffer; the arguments are those of `AxisBase`."""
 
     def __init__(self, config: AxisConfig, column: int, store: Store, ledger: Ledger, events: EventLog) -> None:
         super().__init__(config, column, store, ledger, events)
-        self._follower: Follower | None = None
         self._monitors: Monitors | None = None
 
     @property
@@ -74,9 +72,7 @@ class AxisBuffer(AxisPlanning):
         follower = Follower(job, buffering)
         limits = running.limits
         if job.kind is JobKind.HALT:
-            running.limits = limits._replace(
-                deceleration=max(limits.deceleration, job.limits.deceleration), jerk=max(limits.jerk, job.limits.jerk)
-            )
+            running.limits = stronger(limits, job.limits)
         ways = self._fitted(running, follower)
         if isinstance(ways, Refusal):
             running.limits = limits
@@ -109,7 +105,7 @@ class AxisBuffer(AxisPlanning):
             if isinstance(first, Refusal):
                 return first
             start = Point(end, 0.0, 0.0) if first is None else first.end
-            second = way_of(self.config, job, start, factor)
+            second = self._second(job, start, factor)
         except PlanError as error:
             return unplanned(job, self.config.unit, error)
         objection = self._objection(running, first, here) if first is not None else None
@@ -119,49 +115,12 @@ class AxisBuffer(AxisPlanning):
         held = running.kind is JobKind.HALT and self.override == 0.0  # a halt is not held, what follows it is
         return first, way_of(self.config, job, start, 0.0) if held else second
 
-    def _rests_at_joint(self, running: Job, follower: Follower) -> bool:
-        """Tell whether what the axis follows comes to rest at the joint, as the follower wants it.
-
-        Then it goes on as it is. A plan from the midst of a brake would be the same but for the rounding of its start,
-        and there the time grows with the third root of a way: the last bit of a position costs microseconds.
-        """
-        if self._held or self._values[Q.END_TIME] == math.inf:
-            return False
-        if tuple(self._values[Q.MAX_V : Q.MAX_J + 1].tolist()) != scaled(running, self.override):
-            return False
-        if running.kind is JobKind.HALT or not follower.buffering.blends:
-            return True
-        place, _, asked, _ = self._meeting(running, follower, self.override)
-        return asked == 0.0 and place == running.target
-
-    def _meeting(self, running: Job, follower: Follower, factor: float) -> tuple[float, float, float, float]:
-        """Return where two blended jobs meet, in which direction, the speed asked for there, and the highest one."""
-        limits, buffering = scaled(running, factor), follower.buffering
-        place = running.target if buffering.position is None else buffering.position
-        heading = arrival(self._here, running.target, limits)
-        speeds = joint_speeds(self.config, buffering.mode, limits, heading, place, follower.job, factor)
-        return place, heading, *speeds
-
-    def _first(self, running: Job, follower: Follower, factor: float) -> Way | Refusal:
-        """Plan the running job up to its joint, under an override > 0.
-
-        Raises:
-            PlanError: the plan failed its check.
-        """
-        if running.kind is JobKind.HALT or not follower.buffering.blends:
-            return way_of(self.config, running, self._here, factor)
-        place, heading, asked, highest = self._meeting(running, follower, factor)
-        reached = through(self._here, place, heading, asked, scaled(running, factor), highest)
-        if reached is not None:
-            return reached
-        detail = f"at {place} at most {highest} {self.config.unit}/s are possible for the new one"
-        return Refusal(ErrorId.DISTANCE_TOO_SHORT, detail)
-
     def _chain(self, running: Job, follower: Follower, first: Way | None, second: Way) -> None:
         """Put both jobs into the row of the axis; None for the first leaves what is in it."""
         follower.way = second
         if first is not None:
             self._adopt(running, first)
+            follower.heading = math.copysign(1.0, first.end.v) if first.end.v != 0.0 else 0.0
         self._store.append(self._column, follower.way.profile.pieces)
         self._values[Q.JOB_KIND] = JOB_COMPOUND if running.kind in SCALED else JOB_BRAKE
 
@@ -213,20 +172,23 @@ class AxisBuffer(AxisPlanning):
         job, follower = self._job, self._follower
         assert job is not None
         if follower is not None and self._hands_over(job, follower):
-            first = self._first(job, follower, self.override)
-            if isinstance(first, Refusal):
-                raise PlanError(first.detail)
-            self._chain(job, follower, first, way_of(self.config, follower.job, first.end, self.override))
+            first = self._first_again(job, follower)
+            self._chain(job, follower, first, self._second(follower.job, first.end, self.override))
             return
+        if follower is not None and self._held:
+            self._lend(job, follower)
         self._passed_already(job)
         self._adopt(job, self._planned(job))
         if follower is not None and job.kind in SCALED:
             self._values[Q.JOB_KIND] = JOB_COMPOUND
 
     def _passed_already(self, job: Job) -> None:
-        """Let a job that has passed its target not go back to it."""
-        if job.kind is JobKind.CONTINUOUS and job.passed == 0.0 and self._reached(job):
-            job.passed = self._heading
+        """Let a job that has passed its target not go back to it, also where the override held it behind."""
+        if job.kind is not JobKind.CONTINUOUS or job.passed != 0.0:
+            return
+        beyond = (self.set_position - job.target) * job.heading
+        if self._reached(job) or (beyond > 0.0 and self.set_velocity * job.heading >= 0.0):
+            job.passed = job.heading
 
     def _reached(self, job: Job) -> bool:
         """Tell whether CONTINUOUS has passed its target."""

@@ -66,7 +66,8 @@ class AxisCore(AxisProgress):
         elif not self.enabled and self._missed:
             self.fault(ErrorId.NOT_ENABLED, "the drive lost its enable")
         elif not self.enabled:
-            if self._state is AxisState.ERRORSTOP and not self._enabling:  # set and actual position part: decision 0013
+            # Set and actual position part (decision 0013); who waits for power asks again at rest.
+            if self._state is AxisState.ERRORSTOP and (self._job is not None or not self._enabling):
                 self._values[Q.ENABLE] = 0.0
             self._enter(self._step(AxisEvent.OFF))
         if self._power is not None and bool(self._values[Q.ENABLE]) == self.enabled and not self._job:

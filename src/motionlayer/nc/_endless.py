@@ -67,7 +67,8 @@ class AxisEndless(AxisSubmission):
 
         `command.in_end_velocity` tells when the position is passed and the velocity reached. Where the way is too
         short for the end velocity the axis passes with the nearest it can reach, and gains the rest behind. With a
-        software limit behind, it passes no faster than it could brake before that.
+        software limit behind, it passes no faster than it could brake before that. The direction in which it passes is
+        decided when it begins: an override does not turn it round.
 
         Args:
             position: to be passed, u.

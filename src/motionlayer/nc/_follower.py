@@ -36,8 +36,10 @@ class Follower:
         job: the follower.
         buffering: how it follows.
         way: its plan, where it is appended; None where it waits for more than the setpoint of the running job.
+        heading: direction in which the joint is passed in motion; 0 where the running job comes to rest there.
     """
 
     job: Job
     buffering: Buffering
     way: Way | None = None
+    heading: float = 0.0

@@ -24,6 +24,8 @@ def joint_speeds(
 ) -> tuple[float, float]:
     """Return the speed that a follower asks for at a joint, and the highest one from which it can go on.
 
+    An end velocity that the override has lowered since is not a reason to refuse what was planned before.
+
     Args:
         config: of the axis.
         mode: not ABORTING.
@@ -42,8 +44,9 @@ def joint_speeds(
         return 0.0, math.inf
     # Who has just been told to be slower may arrive faster than anybody asks for now.
     most = max(config.maximum.velocity, asked)
-    highest = _brakeable(most, min(slow * factor, asked), abs(end - place), limits)
-    return min(asked, highest), highest
+    room = abs(end - place)
+    wanted = _brakeable(most, min(slow * factor, asked), room, limits)
+    return min(asked, wanted), wanted if slow == 0.0 else max(wanted, _brakeable(most, slow, room, limits))
 
 
 def _way_out(config: AxisConfig, job: Job, heading: float) -> tuple[float, float]:

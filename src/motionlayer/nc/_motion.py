@@ -154,6 +154,7 @@ class Job:
         event: what it means for the state machine when it begins; None for parts of what has begun already.
         end_speed: magnitude of the end velocity of CONTINUOUS, before the override.
         reach: seconds since the profile began at which CONTINUOUS passes its target; infinite while it is held at 0 %.
+        heading: direction in which CONTINUOUS arrives at its target; 0 before it is planned.
         passed: direction in which CONTINUOUS has passed its target, 0 before.
         monitored: its end is that of the actual position, where the axis has a window for it.
         arrived: the setpoint has come to its target, and something else is waited for: the actual position, a
@@ -168,6 +169,7 @@ class Job:
     event: AxisEvent | None = None
     end_speed: float = 0.0
     reach: float = math.inf
+    heading: float = 0.0
     passed: float = 0.0
     monitored: bool = False
     arrived: bool = False

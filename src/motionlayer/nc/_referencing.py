@@ -127,6 +127,7 @@ class AxisReferencing(AxisSubmission):
             if not low <= place + way <= high:
                 text = f"position {place + way}, allowed: {low} to {high} {self.config.unit}"
                 return Refusal(ErrorId.TARGET_OUTSIDE_LIMITS, text)
+        self._passed_already(job)
         shifted = replace(job, target=job.target + way) if job in self._targeted() else job
         planned = self._checked(shifted, self._here._replace(p=self.set_position + way))
         return planned if isinstance(planned, Refusal) else None

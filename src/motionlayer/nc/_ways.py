@@ -7,6 +7,9 @@ Several rules meet there (function-blocks 2.8; record 25):
 - a follower that turns back needs rest, and one that ends soon needs a speed from which it can still brake;
 - the running job may be too near to reach that speed, or to brake down to it: then it is the nearest it can reach.
 
+Near a place that is passed in motion a job can no longer come to rest before it, and need not. The direction in which
+it arrives there is decided when it is planned first, and kept: to decide it anew would turn the axis round.
+
 A job that is to be faster at its end than on its way keeps to its own velocity and gains the rest just before the
 joint.
 """
@@ -77,7 +80,7 @@ def way_of(config: AxisConfig, job: Job, start: Point, factor: float) -> Way:
 
     Args:
         config: of the axis.
-        job: what to plan; of CONTINUOUS, `reach` is set.
+        job: what to plan; of CONTINUOUS, `reach` and `heading` are set.
         start: where it begins.
         factor: override; 0 brakes what it scales.
 
@@ -106,27 +109,37 @@ def _endless(config: AxisConfig, start: Point, velocity: float, limits: Limits) 
 
 
 def _continuous(config: AxisConfig, job: Job, start: Point, factor: float) -> Way:
-    """Plan past the target with the end velocity, or the nearest that can be reached there, and on with it."""
+    """Plan past the target with the end velocity, or the nearest that can be reached there, and on with it.
+
+    What override 0 holds brakes without regard to the target. Where that leaves no room to take the acceleration back
+    before it, the target is as good as passed: the axis goes on from where it is, and is not turned round for it.
+    """
     limits, speed = scaled(job, factor), job.end_speed * factor
     highest, slow = limits._replace(velocity=max(limits.velocity, speed)), limits._replace(velocity=speed)
-    if job.passed != 0.0:
-        return Way(_endless(config, start, job.passed * speed, slow).profile, highest)
-    heading = arrival(start, job.target, limits)
-    first = through(start, job.target, heading, _brakeable(config, job.target, heading * speed, limits), limits)
-    assert first is not None, (start, job)  # it arrives from where it can come to rest
-    job.reach = first.profile.duration
-    rest = _endless(config, first.end, heading * speed, slow)
-    return Way(joined(first.profile, rest.profile), highest)
+    if job.passed == 0.0:
+        heading = job.heading or arrival(start, job.target, limits)
+        most = _brakeable(config, job.target, heading * max(config.maximum.velocity, highest.velocity), limits)
+        asked = min(speed, most)
+        first = through(start, job.target, heading, asked, limits, most)
+        # Without the highest speed: only for rounding, in the midst of a brake before the target.
+        first = first or through(start, job.target, heading, asked, limits)
+        if first is not None:
+            job.reach, job.heading = first.profile.duration, heading
+            rest = _endless(config, first.end, heading * speed, slow)
+            return Way(joined(first.profile, rest.profile), highest)
+        job.passed = heading
+    return Way(_endless(config, start, job.passed * speed, slow).profile, highest)
 
 
 def _brakeable(config: AxisConfig, place: float, velocity: float, limits: Limits) -> float:
     """Return the speed of a velocity at a place, lowered to what comes to rest before the software limit behind it.
 
-    A brake is an acceleration from rest, backwards. It is asked for in every plan, since the override may have risen.
+    Infinite without a limit there. A brake is an acceleration from rest, backwards. It is asked for in every plan,
+    since the override may have risen.
     """
     room, speed = abs(limit_ahead(config, velocity) - place), abs(velocity)
-    if math.isinf(room) or speed == 0.0:
-        return speed
+    if math.isinf(room):
+        return math.inf
     backwards = limits._replace(velocity=speed, acceleration=limits.deceleration)
     found = passable_velocity(0.0, 0.0, 0.0, room, speed, backwards)
     return speed if found == speed else found * (1.0 - BLUR)

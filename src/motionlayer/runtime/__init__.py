@@ -21,6 +21,7 @@ from motionlayer.runtime._pace import BRAKE, CATCH_UP, FASTEST, SLOWEST, Pace
 from motionlayer.runtime._program import Cancelled, Program
 from motionlayer.runtime._published import Published
 from motionlayer.runtime._run import Run
+from motionlayer.runtime._scheduler import describe
 from motionlayer.runtime._snapshot import Snapshot
 from motionlayer.runtime._statistics import Histogram, Spread, Statistics
 from motionlayer.runtime._stepping import SteppedRun
@@ -69,6 +70,7 @@ __all__ = [
     "TaskConfig",
     "Tasks",
     "collect_young",
+    "describe",
     "heaviest",
     "late_input",
     "takes_memory",

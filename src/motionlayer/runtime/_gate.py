@@ -18,7 +18,7 @@ class Gate:
     def __init__(self) -> None:
         self._left = math.inf
         self._lock = threading.Lock()
-        self._opened = threading.Event()
+        self._stirred = threading.Event()
 
     @property
     def closed(self) -> bool:
@@ -29,13 +29,12 @@ class Gate:
         """Let no further tick through."""
         with self._lock:
             self._left = 0
-            self._opened.clear()
 
     def open(self, ticks: float = math.inf) -> None:
         """Let ticks through, and close after so many of them."""
         with self._lock:
             self._left = ticks
-            self._opened.set()
+        self.stir()
 
     def take(self, ticks: int) -> int:
         """Return how many of these ticks may run now; for the cycle."""
@@ -44,10 +43,14 @@ class Gate:
         with self._lock:
             taken = int(min(ticks, self._left))
             self._left -= taken
-            if not self._left:
-                self._opened.clear()
         return taken
 
+    def stir(self) -> None:
+        """Let who waits look at once; for any thread."""
+        self._stirred.set()
+
     def wait(self) -> bool:
-        """Wait for a short time, or until it opens; tell whether it has."""
-        return self._opened.wait(LOOK)
+        """Wait for a short time, until somebody stirs or until it opens; tell whether it is open."""
+        self._stirred.wait(LOOK)
+        self._stirred.clear()
+        return not self.closed

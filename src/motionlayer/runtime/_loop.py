@@ -213,6 +213,7 @@ class Loop:
     def _stand(self) -> None:
         """Take up what comes from outside while the run is held up, and show what came of it; wait a little."""
         self.mailbox.cycle_thread = get_ident()
+        self.mailbox.on_post = self._gate.stir
         try:
             self.mailbox.apply(self.tick)
             self._show(self.tick - 1)
@@ -221,7 +222,9 @@ class Loop:
             raise self._fault(error) from error
         finally:
             self.mailbox.cycle_thread = None
-        if self._gate.wait():
+        opened = self._gate.wait()
+        self.mailbox.on_post = None
+        if opened:
             self._set_off()
 
     def _show(self, tick: int) -> None:

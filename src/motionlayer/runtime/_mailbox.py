@@ -103,6 +103,8 @@ class Mailbox:
         """Inputs that were not taken because the mailbox was full."""
         self.deaf = False
         """In a replay: what is posted is acknowledged, but not applied; what came is in the recording."""
+        self.on_post: Callable[[], None] | None = None
+        """Called after every post, in the thread that posts; for a run that is held up, and looks at once then."""
         self.cycle_thread: int | None = None
         """The thread whose ticks are under way; it cannot wait for what they bring."""
         self._ledger = ledger
@@ -168,6 +170,9 @@ class Mailbox:
             )
         receipt = Receipt(channel, self)
         self._waiting.append(_Posted(channel, bytes(payload), receipt))
+        told = self.on_post  # asked once: the cycle may take it away meanwhile
+        if told is not None:
+            told()
         if self._closed:  # asked after the append: whoever is last, this or `close`, finds what lies there
             self._refuse_waiting()
         return receipt

@@ -60,8 +60,9 @@ def stretches(curves: Curves) -> Stretches:
     begin = np.clip(np.maximum(curves.offset, 0.0)[curves.owner] - t, 0.0, length)
     cuts = [np.clip(np.where(np.isfinite(root), root, 0.0), begin, length) for root in _roots(v, a, j)]
     s = np.sort(np.stack([begin, *cuts, length], axis=1), axis=1)
-    # Shorter than the rounding of its ends, a stretch has no sign to speak of.
-    keep = np.diff(s, axis=1) > TOLERANCES["handover"].relative * (t + length + curves.dt)[:, None]
+    # Shorter than the rounding of its ends, or of an acceleration at its start, a stretch has no sign to speak of.
+    ramp = (np.maximum(curves.acceleration, curves.deceleration) / curves.jerk)[curves.owner]
+    keep = np.diff(s, axis=1) > TOLERANCES["handover"].relative * (t + length + curves.dt + ramp)[:, None]
     piece = np.repeat(np.arange(len(t), dtype=np.int64)[:, None], 4, axis=1)[keep]
     nothing = np.zeros(len(piece))
     start, end = s[:, :-1][keep], s[:, 1:][keep]

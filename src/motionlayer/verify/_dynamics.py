@@ -3,6 +3,7 @@
 import math
 from typing import Final
 
+from motionlayer.event import Kind
 from motionlayer.verify._asked import Lives, override_of, plans_of, served
 from motionlayer.verify._axis import Axis
 from motionlayer.verify._lives import Life
@@ -20,13 +21,20 @@ def dynamics_rules(axis: Axis, lives: Lives) -> list[Finding]:
     return [*_endless(axis, own), *_velocity_limits(axis, own), *_limits(axis, own, lives)]
 
 
-def asked_for(axis: Axis, life: Life, name: str) -> float:
-    """Return a number of the dynamics of a command: its own, or that of the axis; nan if that is not known."""
+def asked_for(axis: Axis, life: Life, name: str, tick: int | None = None) -> float:
+    """Return a number of the dynamics of a command: its own, or that of the axis; nan if that is not known.
+
+    Args:
+        axis: the axis.
+        life: of the command.
+        name: of the number.
+        tick: in which the default of the axis counts; where left out that in which the command was accepted.
+    """
     asked = request(life.text)
     own, most = asked.number(name), asked.name == "emergency_stop"
     if not (math.isnan(own) or most):
         return own
-    if (axis.written <= life.accepted).any():
+    if (axis.written <= (life.accepted if tick is None else tick)).any():
         return math.nan
     return axis.maximum(name) if most else float(axis.machine.get(name, math.nan))
 
@@ -127,20 +135,35 @@ def _velocity_limits(axis: Axis, own: Lives) -> list[Finding]:
 def _limits(axis: Axis, own: Lives, lives: Lives) -> list[Finding]:
     """Plans are made under the limits asked for; a halt that waits lends its brake to what is before it.
 
-    So are those that brake: a halt and a stop, a motion that the override holds, a jog that is released.
+    So are those that brake: a halt and a stop, a motion that the override holds, a jog that is released. What the
+    override has held before a joint has the brake of any command that takes over there.
     """
-    halts = [life for life in lives.values() if life.source == axis.name and request(life.text).name == "halt"]
-    found = []
+    others, found = [life for life in lives.values() if life.source == axis.name], []
+    held: dict[int, int] = {}
     for plan, life, asked in plans_of(axis, own, "position", "velocity", "passing", "stop"):
         tick = int(axis.curves.tick[plan])
-        lent = [one for one in halts if life.accepted <= one.accepted <= tick and one.number > life.number]
+        if axis.curves.kind[plan] == "stop" and override_of(axis, plan) == 0.0:
+            held[life.number] = tick
+        lent = [
+            one
+            for one in others
+            if life.accepted <= one.accepted <= tick and one.number > life.number
+            if _lends(one, held.get(life.number, -1))
+        ]
         for name, order in LIMITS[1:] if asked.name in BRAKES else LIMITS:  # a brake does not accelerate
-            limit, own_one = float(getattr(axis.curves, name)[plan]), asked_for(axis, life, name)
-            others = [asked_for(axis, one, name) for one in lent if name != "acceleration"]
+            since = tick if asked.name == "home" else None  # each of its legs has the defaults of its own tick
+            limit, own_one = float(getattr(axis.curves, name)[plan]), asked_for(axis, life, name, since)
+            stronger = [asked_for(axis, one, name) for one in lent if name != "acceleration"]
             if any(
-                math.isnan(one) or not differs(limit, one) for one in (own_one, *(o for o in others if o > own_one))
+                math.isnan(one) or not differs(limit, one) for one in (own_one, *(o for o in stronger if o > own_one))
             ):
                 continue
             text = f"the {name} is not what command {life.number} asked for, {life.text}"
             found.append(axis.finding("command limits", tick, text, value=limit, limit=own_one, unit=axis.unit(order)))
     return found
+
+
+def _lends(waiting: Life, held: int) -> bool:
+    """Tell whether a command that waits lends its brake to what was last held by the override in the tick `held`."""
+    asked = request(waiting.text)
+    return asked.name == "halt" or (asked.blends and waiting.kind != Kind.REFUSED and waiting.accepted <= held)

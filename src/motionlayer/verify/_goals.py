@@ -17,6 +17,7 @@ from motionlayer.verify._axis import Axis
 from motionlayer.verify._curves import Floats
 from motionlayer.verify._lives import Life
 from motionlayer.verify._orientations import FULL_TURN, ahead, orientations
+from motionlayer.verify._redefinitions import AT_THE_END
 from motionlayer.verify._requests import BRAKES, MOTIONS, Request, request
 from motionlayer.verify._stops import stops
 from motionlayer.verify._tolerance import TOLERANCES, Slack
@@ -56,7 +57,28 @@ class Goals:
         curves, plan = self._axis.curves, np.arange(len(self._axis.curves), dtype=np.int64)
         before = np.maximum(plan - 1, 0)
         jump = curves.pieces[curves.first[:-1], 1] - curves.at(before, curves.time(before, curves.tick)).p
+        for one in np.flatnonzero(curves.kind == "shift").tolist():
+            jump[one] = self._shift_told(int(curves.tick[one]), float(jump[one]))
         return np.concatenate([[0.0], np.cumsum(np.where(curves.kind == "shift", jump, 0.0))])
+
+    def _shift_told(self, tick: int, jump: float) -> float:
+        """Return how far a tick shifted a coordinate in motion; a redefinition at rest before it is in `jump` too."""
+        last = max((one.number for one in self._own if self._redefines_at_rest(one, tick)), default=None)
+        if last is None:
+            return jump
+        later = [request(one.text) for one in self._own if one.accepted == tick and one.number > last]
+        shifts = [one for one in later if one.name == "define_position"]
+        if not shifts or any(one.flag("clear_offset") for one in shifts):
+            return jump
+        return sum(one.number("position") for one in shifts)
+
+    def _redefines_at_rest(self, life: Life, tick: int) -> bool:
+        """Tell whether a command redefined the coordinate in a tick, and certainly at rest."""
+        name = request(life.text).name
+        if name != "define_position":  # one that ends at once redefines nothing, but for a homing
+            return name in AT_THE_END and life.ended == tick and (name == "home" or life.accepted < tick)
+        before = (one for one in self._own if one.number < life.number and one.accepted <= tick <= one.ended)
+        return life.accepted == tick and not any(request(one.text).name in MOTIONS for one in before)
 
     @cached_property
     def _rest(self) -> Floats:

@@ -17,7 +17,7 @@ class Moments:
 
     Attributes:
         accepted: a command was accepted.
-        enabled: one that asks for power was.
+        enabled: one that asks for power was, or is still under way.
         ended: a command ended, in whichever way.
         done, aborted, failed: a command ended that way.
         faulted: the axis came into error.
@@ -49,21 +49,21 @@ class Moments:
         )
         return cls(
             accepted=rows(lambda event: event.kind == Kind.ACCEPTED),
-            enabled=rows(lambda event: event.kind == Kind.ACCEPTED and event.text.startswith("enable(")),
+            enabled=_under_way(axis, [life for life in lives.values() if life.text.startswith("enable(")], 0),
             ended=done | aborted | failed,
             done=done,
             aborted=aborted,
             failed=failed,
             faulted=rows(lambda event: event.kind == Kind.MESSAGE and event.level == Level.ERROR and event.code != 0),
-            busy=_under_way(axis, lives, 0),
-            busy_before=_under_way(axis, lives, 1),
+            busy=_under_way(axis, lives.values(), 0),
+            busy_before=_under_way(axis, lives.values(), 1),
         )
 
 
-def _under_way(axis: Axis, lives: Mapping[int, Life], before: int) -> Flags:
-    """Tell for each row whether a command of the axis is under way in it or in the `before` ticks before."""
+def _under_way(axis: Axis, lives: Iterable[Life], before: int) -> Flags:
+    """Tell for each row whether one of the commands of the axis is under way in it or in the `before` ticks before."""
     change = np.zeros(len(axis.ticks) + 1, np.int64)
-    for life in lives.values():
+    for life in lives:
         if life.source == axis.name:
             span = np.searchsorted(axis.ticks, [life.accepted, life.ended + before + 1])
             change[span[0]] += 1

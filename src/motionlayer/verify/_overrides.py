@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from motionlayer.event import Kind
 from motionlayer.verify._axis import Axis
 from motionlayer.verify._curves import Flags, Floats
 from motionlayer.verify._lives import Life
@@ -27,9 +28,19 @@ def override_rules(axis: Axis, lives: Mapping[int, Life]) -> list[Finding]:
     return [*found, *_followed(axis, value, scaled, lives), *_shares(axis, value, scaled)]
 
 
+def _last_tick(life: Life | None) -> float:
+    """Return the last tick in which a command is moved by the override; -1 for no command."""
+    if life is None:
+        return -1.0
+    return life.ended - 1.0 if life.kind == Kind.ERROR else life.ended
+
+
 def _followed(axis: Axis, value: Floats, scaled: Flags, lives: Mapping[int, Life]) -> list[Finding]:
-    """A motion is planned anew in the tick in which the override changes."""
-    ends = np.array([lives[number].ended if number in lives else -1 for number in axis.curves.command.tolist()])
+    """A motion is planned anew in the tick in which the override changes; not one that an error ends in that tick.
+
+    Such an axis brakes, which is judged elsewhere; or it rests already, and then there is nothing to plan.
+    """
+    ends = np.array([_last_tick(lives.get(number)) for number in axis.curves.command.tolist()])
     plan = axis.in_force
     before = np.concatenate([plan[:1], plan[:-1]])
     running = scaled[before] & (ends[before] >= axis.ticks) & (axis.curves.command[before] != 0)

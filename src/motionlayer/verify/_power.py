@@ -3,7 +3,7 @@
 A drive answers in the inputs of a tick what was asked until then: in the tick before, or between both. It may lose its
 power at any time; it gets it only where it is asked for. Losing it although it is asked for is an error, and with that
 the request is withdrawn: set and actual position part (decision 0013), and no drive runs after a set position that it
-has not stood at.
+has not stood at. An `enable()` that waits asks again once the setpoint rests.
 """
 
 from typing import Final

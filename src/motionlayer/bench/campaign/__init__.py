@@ -8,19 +8,24 @@ The same code runs as a test for some seconds and as a campaign for hours.
 `life`     random machines whose programs command, override, fail and get cancelled; judged by `motionlayer.verify` and
            by the rules of a command's life
 `blocks`   random calls of function blocks on axes whose drives fail; every call is observed, the trace is judged
+`contract` random clients of the motion layer write commands and data; judged by an oracle that knows nothing but the
+           text of its interface, and by `motionlayer.verify`
+`ads`      damaged requests of an ADS client; nothing stops, nothing is left behind, another client is not disturbed
 `mutation` a sample, plan or event of a valid trace is changed, or what was asked for; `motionlayer.verify` must find it
 ========== ==========================================================================================================
 """
 
 from typing import Final
 
+from motionlayer.bench.campaign._ads import ADS
 from motionlayer.bench.campaign._blocks import BLOCKS
 from motionlayer.bench.campaign._campaign import Campaign, Failure
+from motionlayer.bench.campaign._contract import CONTRACT
 from motionlayer.bench.campaign._life import LIFE
 from motionlayer.bench.campaign._mutation import MUTATION
 from motionlayer.bench.campaign._planning import PLANNING
 from motionlayer.bench.campaign._pursuit import State, StateError, pursue, repeat, resume
 
-CAMPAIGNS: Final = {campaign.name: campaign for campaign in (PLANNING, LIFE, BLOCKS, MUTATION)}
+CAMPAIGNS: Final = {campaign.name: campaign for campaign in (PLANNING, LIFE, BLOCKS, CONTRACT, MUTATION, ADS)}
 
 __all__ = ["CAMPAIGNS", "Campaign", "Failure", "State", "StateError", "pursue", "repeat", "resume"]

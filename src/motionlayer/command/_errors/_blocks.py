@@ -15,13 +15,13 @@ BLOCKS: Final = {
     E.NO_MONITORING: ErrorText("no monitoring of target or range is active", "set target_window or range_window"),
     E.RESTART_IMPOSSIBLE: ErrorText("the axis does not move, a restart is impossible"),
     E.MODE_INVALID: ErrorText(
-        "mode not valid, such as the direction of a modulo move",
-        "see the directions of the command",
+        "mode not valid, or not for this command",
+        "take one of those that the message allows",
         "modulo moves, by their `direction`; blocks, by a mode that does not exist",
     ),
     E.COMMAND_NOT_PERMITTED: ErrorText(
-        "command not permitted, such as an endless move without direction",
-        "give Direction.POSITIVE, NEGATIVE or CURRENT; read a bool parameter with the bool block",
+        "command not permitted with this direction or number",
+        "give what the message allows; parameters that are BOOL have blocks of their own",
         "endless moves, by their `direction`; parameters, by their number",
     ),
     E.PARAMETER: ErrorText(

@@ -116,7 +116,7 @@ GROUP: Final = {
     E.SLAVE_WITHOUT_TABLE: ErrorText("table slave without an active table"),
     E.FUNCTION_NOT_ALLOWED: ErrorText(
         "function not allowed",
-        "name a persistent_file in the machine file; switch a coupling off before the axis is moved",
+        "name a persistent_file in the machine file",
         "parameters to be written persistently, without a file for them",
     ),
     E.SLAVE_TABLE_IN_USE: ErrorText("table of the slave in use"),

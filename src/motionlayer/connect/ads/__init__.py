@@ -14,33 +14,64 @@ from motionlayer.connect.ads._describe import Placed, placed, tree_of
 from motionlayer.connect.ads._frame import net_id
 from motionlayer.connect.ads._image import Status
 from motionlayer.connect.ads._inside import Act, Inside
-from motionlayer.connect.ads._plan import Contents, Plan
+from motionlayer.connect.ads._nc import (
+    CYCLIC,
+    FUNCTIONS,
+    MOST_AXES,
+    PARAMETERS,
+    STATE,
+    Area,
+    Item,
+    NcContents,
+    axis_address,
+    function,
+    with_parts,
+)
+from motionlayer.connect.ads._plan import Contents, Mqtt, Plan
 from motionlayer.connect.ads._router import Access
+from motionlayer.connect.ads._rpc import Calls
 from motionlayer.connect.ads._service import Kind, Outcome, State, Write
 from motionlayer.connect.ads._tree import Tree, TypeNode
+from motionlayer.connect.ads._watch import Sample, Watcher, WatchError
 
 __all__ = [
     "CHANNEL",
+    "CYCLIC",
+    "FUNCTIONS",
+    "MOST_AXES",
+    "PARAMETERS",
+    "STATE",
     "Access",
     "Act",
     "AdsError",
+    "Area",
     "Bridge",
+    "Calls",
     "Code",
     "Contents",
     "Hooks",
     "Inside",
+    "Item",
     "Kind",
     "Limits",
+    "Mqtt",
+    "NcContents",
     "Outcome",
     "Placed",
     "Plan",
+    "Sample",
     "ServerFailed",
     "State",
     "Status",
     "Tree",
     "TypeNode",
+    "WatchError",
+    "Watcher",
     "Write",
+    "axis_address",
+    "function",
     "net_id",
     "placed",
     "tree_of",
+    "with_parts",
 ]

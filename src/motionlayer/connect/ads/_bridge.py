@@ -83,7 +83,7 @@ class _Posted(NamedTuple):
     """What waits for the run."""
 
     number: int
-    count: int
+    writes: int
     receipt: Receipt
 
 
@@ -129,6 +129,11 @@ class Bridge:
             self.close()
             raise
 
+    @property
+    def pid(self) -> int | None:
+        """Number of the server's process; None where it runs in a thread."""
+        return None if self._process is None else self._process.pid
+
     def begin(self, contents: Contents) -> None:
         """Let the server serve; the image has been published."""
         self._send(head(Message.CONTENTS) + pickle.dumps(contents))
@@ -163,7 +168,7 @@ class Bridge:
             why = answer.decode() or f"{plan.host}:{plan.port}: the server does not begin"
             raise ServerFailed(
                 f"ADS server at {why}; end the other program or run that has this address, or give another: "
-                '[ads] port, or 0 for any, and host = "127.0.0.1" for this computer alone'
+                '[ads] port or --ads :PORT, 0 for any, and host = "127.0.0.1" for this computer alone'
             )
         return int(answer)
 
@@ -208,7 +213,7 @@ def _awaited(posted: _Posted) -> bytes:
         posted.receipt.wait(threading.TIMEOUT_MAX)
     except Exception as error:  # noqa: BLE001 - whatever the handler has raised, the client gets an answer
         code = Code.NOT_READY if isinstance(error, RuntimeError) else Code.DEVICE_ERROR
-        return pack_outcomes([Outcome(code)] * posted.count)
+        return pack_outcomes([Outcome(code)] * posted.writes)
     return posted.receipt.result
 
 

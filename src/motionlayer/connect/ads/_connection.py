@@ -99,6 +99,11 @@ class Connection:
         if size:
             self._send(b"".join(answers))
 
+    @property
+    def idle(self) -> bool:
+        """Nothing is held for this stream, and nobody waits for an answer."""
+        return not self._waiting and not any(one.handles or one.notifications for one in self._clients.values())
+
     def stuck(self) -> bool:
         """Tell whether nothing has been completed since the last call, though a frame has begun or none ever came."""
         waits = self._splitter.pending or not self._complete

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any, Final
 
 from motionlayer.connect.ads._tree import Member, MethodNode, ParameterNode, Root, Tree, TypeNode
-from motionlayer.iec import Array, Enumeration, IecType, Method, Parameter, StructType, Symbol, SymbolTable
+from motionlayer.iec import Array, Enumeration, IecType, Method, Parameter, StructType, Symbol
 
 ALIGNMENT: Final = 8
 """Bytes at whose multiples symbols begin in the image."""
@@ -36,16 +36,16 @@ class Placed:
         self.hidden = hidden
 
 
-def placed(table: SymbolTable, hidden: Iterable[Symbol] = ()) -> list[Placed]:
+def placed(shown: Iterable[Symbol], hidden: Iterable[Symbol] = ()) -> list[Placed]:
     """Return all symbols with their places, in order.
 
     Args:
-        table: what clients see.
+        shown: what clients see.
         hidden: what is published behind that, for clients that ask by index group.
     """
     places: list[Placed] = []
     at = 0
-    for symbols, is_hidden in ((table, False), (hidden, True)):
+    for symbols, is_hidden in ((shown, False), (hidden, True)):
         for symbol in symbols:
             places.append(Placed(symbol, at, hidden=is_hidden))
             at += -(-symbol.type.size // ALIGNMENT) * ALIGNMENT

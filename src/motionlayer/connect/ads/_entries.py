@@ -19,6 +19,7 @@ _METHOD: Final = struct.Struct("<6I16x2I4H")
 _PARAMETER: Final = struct.Struct("<6I16x4H")
 
 _BIT_VALUE, _READ_ONLY, _ATTRIBUTES = 0x0002, 0x0020, 0x1000
+_BIT: Final = "BIT"
 _DATA_TYPE, _DATA_ITEM, _BIT_ITEM, _METHODS, _TYPE_ATTRIBUTES, _ENUM_INFOS = 0x1, 0x2, 0x20, 0x800, 0x1000, 0x2000
 _INPUT, _OUTPUT = 1, 2
 
@@ -88,6 +89,8 @@ def type_entry(node: TypeNode, types: dict[str, TypeNode]) -> bytes:
     if node.values:
         flags |= _ENUM_INFOS
         tail += _enum_infos(node)
+    if node.name == _BIT:  # ads-client looks at the entry of the type, not at that of the member
+        flags |= _BIT_ITEM
     return _entry(node, (node.name, node.base, node.comment), node.size, 0, flags, items, tail)
 
 

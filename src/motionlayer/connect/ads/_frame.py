@@ -114,16 +114,13 @@ class Packet(NamedTuple):
 
     def pack(self) -> bytes:
         """Return header and data, without those of AMS/TCP."""
-        header = AMS.pack(
-            *self.target, *self.source, self.command, self.flags, len(self.data), self.error, self.invoke_id
-        )
-        return header + self.data
+        target, source, command, flags, error, invoke_id, data = self
+        return AMS.pack(*target, *source, command, flags, len(data), error, invoke_id) + data
 
     def answer(self, data: bytes, error: int = 0) -> "Packet":
         """Return the answer to this request."""
-        return self._replace(
-            target=self.source, source=self.target, flags=self.flags | RESPONSE, error=error, data=data
-        )
+        target, source, command, flags, _, invoke_id, _ = self
+        return Packet(source, target, command, flags | RESPONSE, error, invoke_id, data)
 
 
 def framed(packet: bytes, command: int = 0) -> bytes:
@@ -154,6 +151,10 @@ class Splitter:
             FrameError: a frame would be longer than the limit; the stream has no meaning from there on.
         """
         rest = self._rest
+        if not rest and len(data) >= TCP.size:  # the usual piece is one frame
+            command, length = TCP.unpack_from(data)
+            if length == len(data) - TCP.size and length <= self._limit:
+                return [Frame(command, data[TCP.size :])]
         rest += data
         frames: list[Frame] = []
         at, end = 0, len(rest)

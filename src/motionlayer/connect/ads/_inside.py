@@ -2,14 +2,13 @@
 
 import bisect
 from collections.abc import Callable, Mapping, Sequence
-from typing import Final
+from typing import Final, Protocol, runtime_checkable
 
 from motionlayer.connect.ads._codes import Code
 from motionlayer.connect.ads._describe import Placed
 from motionlayer.connect.ads._image import STATUS, Status
 from motionlayer.connect.ads._service import Kind, Outcome, Write
 from motionlayer.connect.ads._wire import pack_outcomes, unpack_request
-from motionlayer.iec import InputArray
 from motionlayer.runtime import Published
 
 Act = Callable[[Write, str], Outcome]
@@ -26,6 +25,14 @@ _REFUSED: Final[tuple[tuple[type[Exception], Code], ...]] = (
 _KINDS: Final = tuple(kind for kind, _ in _REFUSED)
 
 
+@runtime_checkable
+class Stale(Protocol):
+    """A variable whose bytes are brought up to date when they are published."""
+
+    def publish(self) -> None:
+        """Bring the bytes up to date."""
+
+
 class Inside:
     """The side of the cycle; it is there in every run, so that a recorded one can be repeated without a server.
 
@@ -40,7 +47,7 @@ class Inside:
         self._starts: list[int] = []
         self._published: Published | None = None
         self._status: Callable[[int], Status] = lambda _tick: Status(0, 0)
-        self._inputs: list[InputArray[object]] = []
+        self._stale: list[Stale] = []
         self._acts: dict[Kind, Act] = {Kind.BYTES: self._bytes, Kind.BIT: self._bit, **(acts or {})}
 
     @property
@@ -65,7 +72,7 @@ class Inside:
             status: returns how the run is after a tick.
         """
         self._published, self._status = published, status
-        self._inputs = [one.symbol.source for one in self.places if isinstance(one.symbol.source, InputArray)]
+        self._stale = [one.symbol.source for one in self.places if isinstance(one.symbol.source, Stale)]
 
     def end(self) -> None:
         """Publish no more."""
@@ -76,7 +83,7 @@ class Inside:
         published = self._published
         if published is None:
             return
-        for source in self._inputs:
+        for source in self._stale:
             source.publish()
         image = published.begin(tick)
         for place in self.places:

@@ -3,8 +3,26 @@
 from dataclasses import dataclass, field
 
 from motionlayer.connect.ads._client import Limits
+from motionlayer.connect.ads._nc import NcContents
 from motionlayer.connect.ads._router import Access
 from motionlayer.connect.ads._tree import Tree
+
+
+@dataclass(frozen=True)
+class Mqtt:
+    """A broker by which clients reach a server too.
+
+    Attributes:
+        host: of the broker.
+        port: its TCP port.
+        network: what all topics begin with.
+        name: of the server, as others see it.
+    """
+
+    host: str
+    port: int
+    network: str
+    name: str
 
 
 @dataclass(frozen=True)
@@ -18,6 +36,7 @@ class Plan:
         cycle_ns: of the run.
         access: who may do what.
         limits: of clients.
+        mqtt: a broker by which it is reached too; None without one.
     """
 
     host: str
@@ -26,6 +45,7 @@ class Plan:
     cycle_ns: int
     access: Access = field(default_factory=Access)
     limits: Limits = field(default_factory=Limits)
+    mqtt: Mqtt | None = None
 
 
 @dataclass(frozen=True)
@@ -35,7 +55,9 @@ class Contents:
     Attributes:
         tree: symbols and types.
         size: bytes of the shared memory.
+        nc: of the ports of the NC; None without axes.
     """
 
     tree: Tree
     size: int
+    nc: NcContents | None = None

@@ -33,7 +33,9 @@ class Access:
 
     def admits(self, host: str) -> bool:
         """Tell whether a connection from an address is taken."""
-        address = ipaddress.ip_address(host)
+        address: ipaddress.IPv4Address | ipaddress.IPv6Address = ipaddress.ip_address(host)
+        if isinstance(address, ipaddress.IPv6Address) and address.ipv4_mapped is not None:
+            address = address.ipv4_mapped  # who comes by IPv4 to a socket for both
         return address.is_loopback or any(address in network for network in self.hosts)
 
 
@@ -84,6 +86,11 @@ class Router:
         for service in self.services.values():
             if isinstance(service, SymbolService):
                 service.forget(client)
+
+    def held(self) -> int:
+        """Return how many handles and ports all clients hold."""
+        counts = (len(service) for service in self.services.values() if isinstance(service, SymbolService))
+        return sum(counts) + len(self._ports)
 
     def take_port(self, wanted: int) -> int | None:
         """Return an AMS port for a client, the one it wants or a free one; None if there is none."""

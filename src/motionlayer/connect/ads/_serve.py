@@ -1,4 +1,4 @@
-"""The server itself: its event loop, in a process or thread that shares nothing with the run but an image and a pipe."""
+"""The server itself: an event loop in a process or thread that shares an image and a pipe with the run, no more."""
 
 import asyncio
 import contextlib
@@ -58,6 +58,7 @@ class Server:
             plan.limits,
         )
         self._streams: set[Stream] = set()
+        self._mqtt = plan.mqtt
 
     async def run(self, listening: socket.socket) -> None:
         """Serve until the run says stop."""
@@ -66,11 +67,19 @@ class Server:
         server = await loop.create_server(lambda: Stream(self._router, self._streams), sock=listening)
         loop.add_reader(self._pipe.fileno(), self._heard, stop)
         self._look()
-        async with server:
+        async with server, self._network():
             await stop
         loop.remove_reader(self._pipe.fileno())
         for stream in tuple(self._streams):
             stream.close()
+
+    def _network(self) -> contextlib.AbstractAsyncContextManager[None]:
+        """Return what makes the server a member of its MQTT network, if it has one."""
+        if self._mqtt is None:
+            return contextlib.nullcontext()
+        from motionlayer.connect.ads._mqtt import joined  # noqa: PLC0415 - a tenth of a second for whoever needs it
+
+        return joined(self._mqtt, self._router)
 
     def _look(self) -> None:
         """Send what is due, and look again a little later."""

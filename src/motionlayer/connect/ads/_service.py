@@ -194,12 +194,15 @@ class Watched(NamedTuple):
         length: in bytes.
         bit: number of the one bit in the byte `start`, else None.
         fixed: a value that is not in the image; else None.
+        pieces: what the value is put together from, each by its place in the value, first byte and length; the rest of
+            the value is 0. Empty: it lies in the image as it is.
     """
 
     start: int
     length: int
     bit: int | None = None
     fixed: bytes | None = None
+    pieces: tuple[tuple[int, int, int], ...] = ()
 
     def sample(self, image: bytes) -> bytes:
         """Return the value in a snapshot."""
@@ -207,4 +210,14 @@ class Watched(NamedTuple):
             return self.fixed
         if self.bit is not None:
             return b"\x01" if image[self.start] >> self.bit & 1 else b"\x00"
+        if self.pieces:
+            return gathered(self.length, self.pieces, image)
         return image[self.start : self.start + self.length]
+
+
+def gathered(length: int, pieces: Sequence[tuple[int, int, int]], image: bytes) -> bytes:
+    """Return a value of a length, put together from pieces: place in the value, first byte in the image, length."""
+    value = bytearray(length)
+    for at, start, size in pieces:
+        value[at : at + size] = image[start : start + size]
+    return bytes(value[:length])

@@ -46,30 +46,31 @@ def read(service: Service, client: Client, group: int, count: int, data: bytes) 
     """Answer F080, F083 and F084; a request that fails occupies its bytes all the same, except in F084."""
     bare = group == READ and count == 0  # then the values alone are the answer
     requests = list(_requests(_ADDRESS, len(data) // _ADDRESS.size if bare else count, data))
-    room = _Room()
-    parts = [_one(service, client, request, room, padded=group != READ_EX_2) for request in requests]
-    values = b"".join(value for _, _, value in parts)
-    if bare:
-        return values
-    if group == READ:
-        return b"".join(_U32.pack(code) for code, _, _ in parts) + values
-    return b"".join(_RESULT.pack(code, length) for code, length, _ in parts) + values
-
-
-def _one(
-    service: Service, client: Client, request: tuple[int, ...], room: "_Room", *, padded: bool
-) -> tuple[int, int, bytes]:
-    """Return code, length and bytes of a value; where padded, the bytes have the length that was asked for."""
-    group, offset, length = request
+    padded, room = group != READ_EX_2, _Room()
     if padded:
-        room.take(length)
+        room.take(sum(length for _, _, length in requests))
+    codes, values = [], []
+    for request in requests:
+        code, value = _one(service, client, request)
+        codes.append(code)
+        values.append(value)
+        if not padded:
+            room.take(len(value))
+    lengths = [len(value) for value in values]
+    if padded:
+        values = [value.ljust(request[2], b"\0") for value, request in zip(values, requests, strict=True)]
+    if group != READ:
+        codes = [number for result in zip(codes, lengths, strict=True) for number in result]
+    return b"".join(values if bare else [struct.pack(f"<{len(codes)}I", *codes), *values])
+
+
+def _one(service: Service, client: Client, request: tuple[int, ...]) -> tuple[int, bytes]:
+    """Return code and bytes of a value."""
+    group, offset, length = request
     try:
-        code, value = 0, service.read(client, group, offset, length)
+        return Code.NO_ERROR, service.read(client, group, offset, length)
     except AdsError as error:
-        code, value = error.code, b""
-    if not padded:
-        room.take(len(value))
-    return code, len(value), value.ljust(length, b"\0") if padded else value
+        return error.code, b""
 
 
 class _Room:

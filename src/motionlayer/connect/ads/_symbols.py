@@ -86,6 +86,10 @@ class SymbolService(Service):
             ENTRY_BY_NAME: lambda _client, place, _length: symbol_entry(place),
         }
 
+    def __len__(self) -> int:
+        """Return how many handles all clients hold."""
+        return len(self._handles)
+
     def read(self, client: Client, group: int, offset: int, length: int) -> bytes:
         """Return what a group has at an offset; the arguments are those of `Service.read`."""
         reader = self._readers.get(group)
@@ -228,8 +232,10 @@ class SymbolService(Service):
             raise AdsError(Code.INVALID_SIZE, f"{length} bytes from {offset} on do not lie in {root.name} alone")
 
     def _read_bytes(self, _client: Client, offset: int, length: int) -> bytes:
-        self._check(offset, 1)
-        return self._image.read(offset, min(length, self._size - offset))
+        if offset + length >= self._size:  # up to the end of the image, or beyond it
+            self._check(offset, 1)
+            length = min(length, self._size - offset)
+        return self._image.read(offset, length)
 
     def _read_bit(self, _client: Client, offset: int, _length: int) -> bytes:
         self._check(offset // 8, 1)

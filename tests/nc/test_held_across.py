@@ -1,0 +1,140 @@
+"""What override 0 carries across a place that is to be passed, or so near to it that it cannot be passed any more.
+
+A hold brakes without regard to the joint or to the target of a continuous move. For some milliseconds before such a
+place its acceleration cannot be taken back in time, and to pass it with one is not what a joint is.
+"""
+
+from itertools import pairwise
+
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from motionlayer import Simulation
+from motionlayer.command import ErrorId
+from motionlayer.nc import Axis, AxisCommand, BufferMode
+from motionlayer.verify import assert_valid
+from tests.effort import examples
+from tests.machines import finish, ready
+
+JOINT = 200.0
+BLENDS = [mode for mode in BufferMode if mode not in (BufferMode.ABORTING, BufferMode.BUFFERED)]
+FOLLOWERS = ["forwards", "backwards", "continuous", "velocity", "halt"]
+RISES = range(1, 120, 7)
+"""Ticks of a hold that begins 1 mm before the joint: braking before it, across it, at rest behind it."""
+
+
+def chained(follower: str, mode: BufferMode, place: float | None = None) -> tuple[Simulation, Axis, list[AxisCommand]]:
+    """Return a run, its axis, and the commands of a running and a blended motion."""
+    run, x = ready()
+    first = x.move_absolute(JOINT, velocity=380.0)
+    match follower:
+        case "forwards":
+            second = x.move_absolute(350.0, velocity=300.0, buffer_mode=mode, blending_position=place)
+        case "backwards":
+            second = x.move_absolute(20.0, velocity=300.0, buffer_mode=mode, blending_position=place)
+        case "continuous":
+            second = x.move_continuous_absolute(250.0, 200.0, buffer_mode=mode, blending_position=place)
+        case "velocity":
+            second = x.move_velocity(350.0, buffer_mode=mode, blending_position=place)
+        case _:
+            second = x.halt(buffer_mode=mode, blending_position=place)
+    assert second.error is None
+    return run, x, [first, second]
+
+
+def ended(follower: AxisCommand) -> bool:
+    """Tell whether a follower is done; an endless one ends on the software limit."""
+    return follower.done or (follower.error is not None and follower.error.id is ErrorId.MAXIMUM_PASSED)
+
+
+def hold(run: Simulation, x: Axis, ticks: int, factor: float = 1.0) -> None:
+    """Hold the axis at override 0, and let it go on."""
+    x.set_override(0.0)
+    run.step(ticks)
+    x.set_override(factor)
+
+
+@pytest.mark.parametrize("follower", FOLLOWERS)
+@pytest.mark.parametrize("ticks", RISES)
+def test_a_joint_that_a_hold_carries_the_axis_across_is_still_met(follower: str, ticks: int) -> None:
+    run, x, (first, second) = chained(follower, BufferMode.BLENDING_PREVIOUS)
+    finish(run, x.passes(JOINT - 1.0))
+    hold(run, x, ticks)
+    run.step(3000)
+    assert first.done
+    assert ended(second)
+    assert_valid(run.trace)
+
+
+def test_a_joint_too_near_for_the_acceleration_to_be_taken_back_is_come_back_to() -> None:
+    """And the first command is done there, at rest, and not before."""
+    run, x, (first, _) = chained("forwards", BufferMode.BLENDING_PREVIOUS)
+    finish(run, x.passes(JOINT - 8.0))
+    x.set_override(0.0)
+    finish(run, x.passes(JOINT - 1.0))
+    room, settling = JOINT - x.set_position, x.set_velocity * abs(x.set_acceleration) / 1e5
+    assert x.set_velocity > 0.0 > x.set_acceleration
+    assert settling > 2.0 * room
+    x.set_override(1.0)
+    finish(run, first)
+    assert x.set_position == pytest.approx(JOINT, abs=0.01)
+    run.step(2000)
+    assert run.trace["X.set_position"][: run.tick - 2000].max() > JOINT + 1.0
+    assert run.trace["X.set_velocity"].min() < 0.0
+    assert_valid(run.trace)
+
+
+@pytest.mark.parametrize("follower", ["forwards", "backwards"])
+@pytest.mark.parametrize("ticks", RISES)
+def test_a_blending_position_before_the_target_is_met_too(follower: str, ticks: int) -> None:
+    """Also where the hold ends between the blending position and the target of the running motion."""
+    run, x, (first, second) = chained(follower, BufferMode.BLENDING_LOW, place=180.0)
+    finish(run, x.passes(179.0))
+    hold(run, x, ticks)
+    run.step(3000)
+    assert first.done
+    assert second.done
+    assert_valid(run.trace)
+
+
+@pytest.mark.parametrize("before", [0.1, 1.0, 4.0, 10.0, 20.0])
+@pytest.mark.parametrize("ticks", RISES)
+def test_a_continuous_move_is_not_turned_round_for_its_target(before: float, ticks: int) -> None:
+    run, x = ready(software_limit_max=None)
+    move = x.move_continuous_absolute(JOINT, 150.0, velocity=400.0)
+    finish(run, x.passes(JOINT - before))
+    hold(run, x, ticks)
+    run.step(1500)
+    assert move.in_end_velocity
+    assert x.set_velocity == 150.0
+    assert all(after >= earlier for earlier, after in pairwise(run.trace["X.set_position"].tolist()))
+    assert_valid(run.trace)
+
+
+@settings(max_examples=examples(40), deadline=None)
+@given(
+    follower=st.sampled_from(FOLLOWERS),
+    mode=st.sampled_from(BLENDS),
+    place=st.sampled_from([None, 60.0, 150.0, 199.0]),
+    before=st.floats(0.01, 40.0),
+    factors=st.lists(st.tuples(st.integers(1, 60), st.floats(0.05, 1.0), st.integers(1, 40)), min_size=1, max_size=4),
+)
+@example("forwards", BufferMode.BLENDING_HIGH, 150.0, 2.0, [(40, 1.0, 2), (30, 0.5, 1), (9, 1.0, 1)])
+def test_holds_round_a_joint_end_nothing_in_an_error(
+    follower: str,
+    mode: BufferMode,
+    place: float | None,
+    before: float,
+    factors: list[tuple[int, float, int]],
+) -> None:
+    run, x, (first, second) = chained(follower, mode, place)
+    finish(run, x.passes((place or JOINT) - before))
+    for ticks, factor, going in factors:
+        hold(run, x, ticks, factor)
+        run.step(going)
+    x.set_override(1.0)
+    run.step(3000)
+    assert first.done
+    assert ended(second)
+    assert_valid(run.trace)
