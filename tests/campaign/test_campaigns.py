@@ -206,7 +206,8 @@ def test_lives_that_broke_a_rule_once(file: Path) -> None:
     when the override changes, power that comes back while a brake runs, a homing and a shift in one tick, a shift
     behind a passed target, a target on a software limit, a start outside that begins with a sliver. An override that
     rises when a hold has carried the axis too near to a joint for its acceleration to be taken back, and
-    one that changes in the tick in which an error ends a motion at rest.
+    one that changes in the tick in which an error ends a motion at rest. An override that rises before a joint behind
+    which an end velocity could not be braked before the software limit.
     """
     data = json.loads(file.read_text())
     assert violations(*live(Life(data["machine"], from_data(data["parts"])))) == []

@@ -7,7 +7,7 @@ import pytest
 
 from motionlayer import AxisState
 from motionlayer.command import ErrorId
-from motionlayer.nc import Direction
+from motionlayer.nc import BufferMode, Direction
 from motionlayer.verify import assert_valid
 from tests.machines import assert_smooth, error_of, finish, follow, ready, state_of
 
@@ -138,4 +138,23 @@ def test_an_end_velocity_is_lowered_to_what_the_limit_behind_allows(low: float, 
     assert error_of(move) is ErrorId.MAXIMUM_PASSED
     assert rows[:, 0].max() <= HIGH
     assert x.set_position == HIGH
+    assert_valid(run.trace)
+
+
+@pytest.mark.parametrize("factor", [0.2, 0.5, 1.0])
+def test_a_joint_before_an_end_velocity_leaves_room_to_brake_behind_the_target(factor: float) -> None:
+    """Also where the override rises: from the end velocity as commanded, the axis would come to rest at 432."""
+    run, x = ready()
+    x.set_override(factor)
+    run.step()
+    first = x.move_absolute(300.0)
+    after = x.move_continuous_absolute(330.0, 450.0, deceleration=1000.0, buffer_mode=BufferMode.BLENDING_HIGH)
+    run.step(100)
+    x.set_override(1.0)
+    finish(run, first)
+    assert x.set_velocity > 400.0
+    finish(run, after)
+    assert error_of(after) is ErrorId.MAXIMUM_PASSED
+    assert (x.set_position, x.set_velocity, x.set_acceleration) == (HIGH, 0.0, 0.0)
+    assert run.trace["X.set_position"].max() <= HIGH
     assert_valid(run.trace)

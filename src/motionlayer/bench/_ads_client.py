@@ -19,6 +19,7 @@ NET_IDS = {"ours": "127.0.0.1.1.1", "peer": "127.0.0.1.1.2"}
 PLC_PORT = 851
 PEER = "peer"
 ROUNDS = 10
+PATIENCE_MS = 60_000  # a run answers after its first tick, which may have to compile the kernels
 
 
 def serve() -> None:
@@ -55,6 +56,7 @@ def connected(who: str, port: int) -> Iterator[Any]:
     """Connect pyads."""
     connection = importlib.import_module("pyads").Connection(NET_IDS[who], PLC_PORT, f"127.0.0.1:{port}")
     connection.open()
+    connection.set_timeout(PATIENCE_MS)
     try:
         yield connection
     finally:

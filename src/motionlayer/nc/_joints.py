@@ -6,7 +6,7 @@ from typing import Final
 
 from motionlayer.nc._config import AxisConfig, BufferMode
 from motionlayer.nc._motion import Job, JobKind
-from motionlayer.nc._ways import HALVINGS, limit_ahead, scaled
+from motionlayer.nc._ways import HALVINGS, brakeable_speed, limit_ahead, scaled
 from motionlayer.profile import Limits, plan_velocity, stop_displacement
 
 BLENDED: Final[Mapping[BufferMode, Callable[[float, float], float]]] = {
@@ -45,8 +45,10 @@ def joint_speeds(
     # Who has just been told to be slower may arrive faster than anybody asks for now.
     most = max(config.maximum.velocity, asked)
     room = abs(end - place)
-    wanted = _brakeable(most, min(slow * factor, asked), room, limits)
-    return min(asked, wanted), wanted if slow == 0.0 else max(wanted, _brakeable(most, slow, room, limits))
+    # An end velocity counts only as far as it comes to rest before the software limit behind the target.
+    there = brakeable_speed(config, end, heading * most, limits) if slow > 0.0 else 0.0
+    wanted = _brakeable(most, min(slow * factor, there, asked), room, limits)
+    return min(asked, wanted), wanted if slow == 0.0 else max(wanted, _brakeable(most, min(slow, there), room, limits))
 
 
 def _way_out(config: AxisConfig, job: Job, heading: float) -> tuple[float, float]:

@@ -118,7 +118,7 @@ def _continuous(config: AxisConfig, job: Job, start: Point, factor: float) -> Wa
     highest, slow = limits._replace(velocity=max(limits.velocity, speed)), limits._replace(velocity=speed)
     if job.passed == 0.0:
         heading = job.heading or arrival(start, job.target, limits)
-        most = _brakeable(config, job.target, heading * max(config.maximum.velocity, highest.velocity), limits)
+        most = brakeable_speed(config, job.target, heading * max(config.maximum.velocity, highest.velocity), limits)
         asked = min(speed, most)
         first = through(start, job.target, heading, asked, limits, most)
         # Without the highest speed: only for rounding, in the midst of a brake before the target.
@@ -131,7 +131,7 @@ def _continuous(config: AxisConfig, job: Job, start: Point, factor: float) -> Wa
     return Way(_endless(config, start, job.passed * speed, slow).profile, highest)
 
 
-def _brakeable(config: AxisConfig, place: float, velocity: float, limits: Limits) -> float:
+def brakeable_speed(config: AxisConfig, place: float, velocity: float, limits: Limits) -> float:
     """Return the speed of a velocity at a place, lowered to what comes to rest before the software limit behind it.
 
     Infinite without a limit there. A brake is an acceleration from rest, backwards. It is asked for in every plan,
