@@ -11,7 +11,7 @@ from motionlayer.layer._declarations import control_side
 from motionlayer.layer._globals import Globals
 from motionlayer.layer._mapping_table import INPUTS, OUTPUTS
 from motionlayer.layer.types import AxisCommand, Progress
-from motionlayer.nc import AxisRefs
+from motionlayer.nc import ActualMotion, AxisRefs
 from motionlayer.store import Store
 
 TABLE = """
@@ -187,7 +187,8 @@ def test_other_sizes() -> None:
 
 
 def test_images_of_the_nc_are_shown_as_they_are_when_somebody_reads() -> None:
-    images = AxisRefs(Store(2, dt=0.001, max_pieces=2), [360.0, 360.0], [0, 0])
+    store = Store(2, dt=0.001, max_pieces=2)
+    images = AxisRefs(store, ActualMotion(store, 2), [360.0, 360.0], [0, 0])
     made = Globals(Sizes(2), Features(), images)
     rng = np.random.default_rng(1)
     for image in (images.nc_to_plc, images.plc_to_nc):

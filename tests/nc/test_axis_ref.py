@@ -8,10 +8,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from motionlayer.nc._actual import ActualMotion
 from motionlayer.nc._axis_ref import NCTOPLC_AXIS_REF, PLCTONC_AXIS_REF, OpModeDWord, StateDWord
 from motionlayer.nc._axis_refs import AxisRefs
 from motionlayer.store import Q, Status, Store
 from tests.effort import examples
+from tests.machines import ready
 
 DT = 0.001
 NC_TO_PLC = {
@@ -28,7 +30,7 @@ NC_TO_PLC = {
 def refs(count: int = 1, modulo: float = 360.0) -> tuple[Store, AxisRefs]:
     store = Store(count, dt=DT, max_pieces=20)
     store.table[Q.MIN_P], store.table[Q.MAX_P], store.table[Q.TARGET] = -math.inf, math.inf, math.nan
-    return store, AxisRefs(store, [modulo] * count, [0] * count)
+    return store, AxisRefs(store, ActualMotion(store, count), [modulo] * count, [0] * count)
 
 
 @pytest.mark.parametrize(("name", "offset"), NC_TO_PLC.items())
@@ -56,11 +58,13 @@ finite = st.floats(-1e6, 1e6)
 @settings(max_examples=examples(300), deadline=None)
 @given(st.lists(finite, min_size=6, max_size=6), st.floats(1e-3, 1e4), st.integers(0, 2**40))
 def test_positions_and_turns_fit_together(values: list[float], modulo: float, tick: int) -> None:
-    store, image = refs(1, modulo)
+    store, _ = refs(1, modulo)
     actual, before, p, v, a, lag = values
     store.table[Q.ACTUAL_P] = before
-    image = AxisRefs(store, [modulo], [0])
+    moved = ActualMotion(store, 1)
+    image = AxisRefs(store, moved, [modulo], [0])
     store.table[[Q.ACTUAL_P, Q.SET_P, Q.SET_V, Q.SET_A, Q.LAG], 0] = actual, p, v, a, lag
+    moved.follow()
     image.fill(tick)
     one = image.nc_to_plc[0]
     assert (one["ActPos"], one["SetPos"], one["SetVelo"], one["SetAcc"], one["PosDiff"]) == (actual, p, v, a, lag)
@@ -123,7 +127,9 @@ def test_axis_state_tells_the_phase(v: float, a: float, job: bool, override: flo
 
 def test_axes_do_not_mix_and_modes_stay() -> None:
     store = Store(3, dt=DT, max_pieces=20)
-    image = AxisRefs(store, [360.0, 10.0, 1.0], [0, int(OpModeDWord.Modulo), int(OpModeDWord.SimulationAxis)])
+    image = AxisRefs(
+        store, ActualMotion(store, 3), [360.0, 10.0, 1.0], [0, int(OpModeDWord.Modulo), int(OpModeDWord.SimulationAxis)]
+    )
     store.table[Q.SET_P] = 365.0, 25.0, -0.25
     store.table[Q.ERROR] = 0.0, float(0x4550), 0.0
     image.fill(258)
@@ -133,3 +139,28 @@ def test_axes_do_not_mix_and_modes_stay() -> None:
     assert image.nc_to_plc["ErrorCode"].tolist() == [0, 0x4550, 0]
     assert (image.nc_to_plc["OpModeDWord"] & 0xFFFFFF).tolist() == [0, OpModeDWord.Modulo, OpModeDWord.SimulationAxis]
     assert np.all(image.nc_to_plc["OpModeDWord"] >> 24 == 2)
+
+
+def test_the_actual_velocity_does_not_depend_on_when_somebody_first_looks() -> None:
+    shown = []
+    for first_look in (0, 60):
+        run, axis = ready()
+        axis.move_absolute(300.0, velocity=200.0)
+        for tick in range(60):
+            if tick >= first_look:
+                assert run.axis_refs["X"].NcToPlc.ActPos >= 0.0
+            run.step()
+        ref = run.axis_refs["X"].NcToPlc
+        shown.append((ref.ActVelo, ref.ActAcc))
+        assert ref.ActVelo > 100.0
+    assert shown[0] == shown[1]
+
+
+def test_a_redefinition_of_the_position_is_no_motion() -> None:
+    run, axis = ready()
+    ref = run.axis_refs["X"].NcToPlc
+    axis.define_position(50.0)
+    for _ in range(5):
+        run.step()
+        assert (ref.ActVelo, ref.ActAcc) == (0.0, 0.0)
+    assert ref.ActPos == 50.0

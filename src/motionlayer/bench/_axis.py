@@ -10,7 +10,7 @@ from motionlayer.bench import _load
 from motionlayer.bench._row import MICRO, Effort, Failed, Figure, Goal, Row
 from motionlayer.bench._timing import median_us, times_us
 from motionlayer.fb import MC_MoveAbsolute
-from motionlayer.nc import AxisRefs, BufferMode
+from motionlayer.nc import ActualMotion, AxisRefs, BufferMode
 from motionlayer.profile import MAX_PIECES, Limits, plan_velocity
 from motionlayer.store import Store
 
@@ -78,8 +78,14 @@ def image(effort: Effort) -> Figure:
         store.adopt(column, plan_velocity(0.0, 0.0, 0.0, 100.0 + column % 7, limits).pieces)
     for tick in range(1, 500):
         store.sample(tick)
-    refs, ticks = AxisRefs(store, [360.0] * AXES, [0] * AXES), itertools.count(500)
-    return Figure(median_us(lambda: refs.fill(next(ticks)), effort.samples))
+    actual, ticks = ActualMotion(store, AXES), itertools.count(500)
+    refs = AxisRefs(store, actual, [360.0] * AXES, [0] * AXES)
+
+    def call() -> None:
+        actual.follow()
+        refs.fill(next(ticks))
+
+    return Figure(median_us(call, effort.samples))
 
 
 def chain(effort: Effort) -> Figure:

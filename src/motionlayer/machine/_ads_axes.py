@@ -23,7 +23,7 @@ class AdsAxes:
     Args:
         symbols: returns those of the motion layer.
         refs: returns the axes by name.
-        images: their cyclic interface.
+        images: returns their cyclic interface, which costs every tick from then on.
         ledger: the present tick.
     """
 
@@ -31,7 +31,7 @@ class AdsAxes:
         self,
         symbols: Callable[[], Iterable[Symbol]],
         refs: "Callable[[], Mapping[str, AXIS_REF]]",
-        images: "AxisRefs",
+        images: "Callable[[], AxisRefs]",
         ledger: Ledger,
     ) -> None:
         self._symbols = symbols
@@ -49,7 +49,7 @@ class AdsAxes:
         def tick() -> int:
             return self._ledger.tick
 
-        rows = NcRows(refs, self._images, tick)
+        rows = NcRows(refs, self._images(), tick)
         shown = itertools.chain(self._symbols(), [MotionObjects(refs, tick).symbol()])
         return placed(shown, [Symbol(NAME, rows, "", {}, ())])
 

@@ -115,7 +115,7 @@ class MachineRun(ServedRun):
     def _open_ads(self, choice: AdsDescription | bool, *, own_process: bool) -> Stage:
         """Return the stage of the ADS server; if that cannot begin, the files are closed again."""
         try:
-            axes = AdsAxes(self._known_symbols, lambda: self.axis_refs, self._stage.images, self._ledger)
+            axes = AdsAxes(self._known_symbols, lambda: self.axis_refs, lambda: self._stage.images, self._ledger)
             return self._add_ads(choice, axes, own_process=own_process)
         except BaseException:
             if self._tracing is not None:

@@ -1,5 +1,6 @@
 """The numerical control: axes (point to point), built on profiles and the setpoint store."""
 
+from motionlayer.nc._actual import ActualMotion
 from motionlayer.nc._axis import Axis
 from motionlayer.nc._axis_ref import (
     NCTOPLC_AXIS_REF,
@@ -47,6 +48,7 @@ __all__ = [
     "REACTIONS",
     "ROW_PIECES",
     "TRANSITIONS",
+    "ActualMotion",
     "Axis",
     "AxisCommand",
     "AxisConfig",

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motionlayer._kernel import kernel
+from motionlayer.nc._actual_kernels import ACCELERATION, VELOCITY
 from motionlayer.nc._axis_ref import BUFFERED, HAS_JOB, NCTOPLC_AXIS_REF, OpModeDWord, StateDWord
 from motionlayer.store import Q, Status
 
@@ -100,12 +101,6 @@ CONSTANT_VELOCITY: Final = 3
 ACCELERATING: Final = 4
 DECELERATING: Final = 5
 
-LAST_P: Final = 0
-LAST_V: Final = 1
-MODULO: Final = 2
-MEMORY: Final = 3
-"""Rows of what is kept per axis: actual position and velocity of the cycle before, modulo period."""
-
 
 @kernel
 def motion_bits(v: float, a: float, flags: int) -> int:
@@ -162,17 +157,24 @@ def word(bits: int) -> int:
 
 @kernel
 def fill(
-    table: Floats, reals: Floats, ints: Ints, words: Words, memory: Floats, op_mode: Ints, tick: int, cycle_ns: int
+    table: Floats,
+    reals: Floats,
+    ints: Ints,
+    words: Words,
+    actual_motion: Floats,
+    periods: Floats,
+    op_mode: Ints,
+    tick: int,
+    cycle_ns: int,
 ) -> None:
     """Fill the cyclic fields of all axes with what is valid at `tick`."""
     set_p, set_v, set_a, set_j = table[SET_P], table[SET_V], table[SET_A], table[SET_J]
     actual, low, high, target = table[ACTUAL_P], table[MIN_P], table[MAX_P], table[TARGET]
-    last_p, last_v, modulo = memory[LAST_P], memory[LAST_V], memory[MODULO]
+    velocity, acceleration = actual_motion[VELOCITY], actual_motion[ACCELERATION]
     cycles = word((tick & 255) << CYCLE_SHIFT)
     stamp = word(tick * cycle_ns & 0xFFFFFFFF)
-    rate = 1e9 / cycle_ns
     for i in range(reals.shape[0]):
-        p, v, a, act, period = set_p[i], set_v[i], set_a[i], actual[i], modulo[i]
+        p, v, a, act, period = set_p[i], set_v[i], set_a[i], actual[i], periods[i]
         flags, state = int(table[FLAGS, i]), int(table[STATE, i])
         bits = flags | motion_bits(v, a, flags) | state_bits(state, table[READY, i], int(table[STATUS, i]))
         bits |= int(table[WINDOWS, i]) << WINDOW_SHIFT
@@ -180,7 +182,6 @@ def fill(
             bits |= LIMIT_MIN
         elif act > high[i]:
             bits |= LIMIT_MAX
-        velocity = (act - last_p[i]) * rate
         set_turns, act_turns = turns_of(p, period), turns_of(act, period)
         command = int(table[COMMAND, i])
         ints[i, STATE_DWORD] = word(bits)
@@ -197,8 +198,8 @@ def fill(
         reals[i, ACT_POS] = act
         reals[i, ACT_POS_RAW] = act
         reals[i, MODULO_ACT_POS] = max(act - act_turns * period, 0.0)
-        reals[i, ACT_VELO] = velocity
-        reals[i, ACT_ACC] = (velocity - last_v[i]) * rate
+        reals[i, ACT_VELO] = velocity[i]
+        reals[i, ACT_ACC] = acceleration[i]
         reals[i, POS_DIFF] = table[LAG, i]
         reals[i, SET_POS] = p
         reals[i, SET_VELO] = v
@@ -206,4 +207,3 @@ def fill(
         reals[i, SET_JERK] = set_j[i]
         reals[i, TARGET_POS] = target[i] if target[i] == target[i] else p
         reals[i, MODULO_SET_POS] = max(p - set_turns * period, 0.0)
-        last_p[i], last_v[i] = act, velocity

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from motionlayer.nc._actual import ActualMotion
 from motionlayer.nc._axis_ref import NCTOPLC_AXIS_REF, PLCTONC_AXIS_REF, OpModeDWord
-from motionlayer.nc._axis_ref_kernels import LAST_P, LAST_V, MEMORY, MODULO, fill
+from motionlayer.nc._axis_ref_kernels import fill
 from motionlayer.nc._config import AxisConfig
 from motionlayer.store import Q, Store
 
@@ -45,6 +46,7 @@ class AxisRefs:
 
     Args:
         store: where the values are; axes are its first columns.
+        actual: how fast the axes move by what their drives report.
         modulo: modulo period per axis, u, > 0.
         op_mode: `OpModeDWord` per axis without the cycle counter.
 
@@ -56,7 +58,7 @@ class AxisRefs:
         cycle_time: s.
     """
 
-    def __init__(self, store: Store, modulo: list[float], op_mode: list[int]) -> None:
+    def __init__(self, store: Store, actual: ActualMotion, modulo: list[float], op_mode: list[int]) -> None:
         count = len(modulo)
         self.nc_to_plc: NDArray[Any] = np.zeros(count, dtype=NCTOPLC_AXIS_REF)
         self.plc_to_nc: NDArray[Any] = np.zeros(count, dtype=PLCTONC_AXIS_REF)
@@ -68,17 +70,15 @@ class AxisRefs:
         self._views = raw.view(np.float64), raw.view(np.int32), raw.view(np.uint16)
         self._cycle_ns = round(store.dt * 1e9)
         self._op_mode = np.array(op_mode, dtype=np.int32)
-        self._memory = np.zeros((MEMORY, count))
-        self._memory[LAST_P] = store.table[Q.ACTUAL_P, :count]
-        self._memory[LAST_V] = 0.0
-        self._memory[MODULO] = modulo
+        self._actual = actual
+        self._periods = np.array(modulo, dtype=np.float64)
         self.nc_to_plc["AxisId"] = np.arange(1, count + 1)
 
     def configure(self, index: int, config: AxisConfig) -> None:
         """Show an axis by another configuration."""
-        self._memory[MODULO, index] = config.modulo.period
+        self._periods[index] = config.modulo.period
         self._op_mode[index] = op_mode(config)
 
     def fill(self, tick: int) -> None:
         """Show what is valid at `tick`."""
-        fill(self._store.table, *self._views, self._memory, self._op_mode, tick, self._cycle_ns)
+        fill(self._store.table, *self._views, self._actual.rows, self._periods, self._op_mode, tick, self._cycle_ns)

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from motionlayer.command import ErrorId
+from motionlayer.nc._actual import ActualMotion
 from motionlayer.nc._axis import Axis
 from motionlayer.nc._axis_refs import AxisRefs, op_mode
 from motionlayer.nc._monitors import Monitors
@@ -28,6 +29,7 @@ class AxisStage:
         self._faulted: list[int] = []
         configs = {column: axis.config.monitor for column, axis in enumerate(axes) if axis.config.monitor.any}
         self._monitors = Monitors(store, configs)
+        self._actual = ActualMotion(store, len(axes))
         self._images: AxisRefs | None = None
         for axis in axes:
             axis.cycle.attach(self._monitors, self._faulted if groups else None, self._configured)
@@ -38,7 +40,7 @@ class AxisStage:
         if self._images is None:
             configs = [axis.config for axis in self._axes]
             self._images = AxisRefs(
-                self._store, [one.modulo.period for one in configs], [op_mode(one) for one in configs]
+                self._store, self._actual, [one.modulo.period for one in configs], [op_mode(one) for one in configs]
             )
             self._images.fill(self._store.tick)
         return self._images
@@ -59,6 +61,7 @@ class AxisStage:
             changed.clear()
         if self._faulted:
             react(self._groups, self._faulted, self._axes)
+        self._actual.follow()
         if self._images is not None:
             self._images.fill(tick)
 
