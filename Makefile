@@ -22,10 +22,12 @@ reference: $(READY)
 	$(BIN)/python scripts/reference.py
 	$(BIN)/python scripts/blocks.py
 	$(BIN)/python scripts/layer_types.py
+	$(BIN)/python scripts/ads_methods.py
 	$(BIN)/python scripts/layer_states.py
 	$(BIN)/python scripts/layer_picture.py
+	$(BIN)/python scripts/motion_pictures.py
 
-# make campaign NAME=planning|life|blocks|contract|ads|mutation [COUNT=1e6] [SEED=1] [CASE=1234] [FRESH=1]
+# make campaign NAME=planning|life|blocks|contract|ads|siege|mutation [COUNT=1e6] [SEED=1] [CASE=1234] [FRESH=1]
 campaign: $(READY)
 	$(BIN)/python scripts/campaign.py --name "$(NAME)" $(if $(COUNT),--count $(COUNT)) $(if $(SEED),--seed $(SEED)) \
 		$(if $(CASE),--case $(CASE)) $(if $(FRESH),--fresh)

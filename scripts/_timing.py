@@ -35,6 +35,11 @@ text { font: 12px system-ui, sans-serif; fill: #24292f }
 .edge { stroke: #0969da; stroke-width: 1; stroke-dasharray: 2 3; opacity: .45 }
 """.strip()
 
+SECOND: Final = """
+.other { stroke: #bf8700; stroke-width: 1.6; fill: none; stroke-linejoin: round }
+.second { fill: #9a6700 }"""
+"""The rest of the style, where a curve has a second one beside it."""
+
 
 class Lane(NamedTuple):
     """A signal that is TRUE or FALSE.
@@ -71,15 +76,19 @@ class Band(NamedTuple):
 
 
 class Curve(NamedTuple):
-    """A number over time.
+    """A number over time, or two of them in one scale.
 
     Attributes:
         name: with the unit.
         values: per cycle.
+        other_name: of the second one.
+        other: its values, drawn behind the first; empty without one.
     """
 
     name: str
     values: Sequence[float]
+    other_name: str = ""
+    other: Sequence[float] = ()
 
 
 def diagram(title: str, lanes: Sequence[Lane | Band], curves: Sequence[Curve], cycle_ms: float) -> str:
@@ -106,8 +115,9 @@ def diagram(title: str, lanes: Sequence[Lane | Band], curves: Sequence[Curve], c
     size = f'viewBox="0 0 {WIDTH} {y + 34:g}" width="{WIDTH}" height="{y + 34:g}"'
     head = f'<svg xmlns="http://www.w3.org/2000/svg" {size} role="img">'
     paper = f'<rect width="{WIDTH}" height="{y + 34:g}" rx="6" fill="#ffffff"/>'
+    style = STYLE + (SECOND if any(curve.other for curve in curves) else "")
     return "\n".join(
-        [head, f"<title>{escape(title)}</title>", f"<style>{STYLE}</style>", paper, *lines, *body, *axis, "</svg>", ""]
+        [head, f"<title>{escape(title)}</title>", f"<style>{style}</style>", paper, *lines, *body, *axis, "</svg>", ""]
     )
 
 
@@ -146,21 +156,25 @@ def _band(band: Band, y: float, step: float) -> Iterator[str]:
 
 def _curve(curve: Curve, y: float, step: float) -> Iterator[str]:
     """Yield name, scale and course of a curve whose top is at y."""
-    low, high = min(0.0, *curve.values), max(0.0, *curve.values)
+    low, high = min(0.0, *curve.values, *curve.other), max(0.0, *curve.values, *curve.other)
     span = (high - low) or 1.0
     top, bottom = y + 8, y + CURVE - 8
 
     def at(value: float) -> float:
         return bottom - (value - low) / span * (bottom - top)
 
-    middle = (top + bottom) / 2 + 4
+    middle = (top + bottom) / 2 + (-4 if curve.other else 4)
     yield f'<text class="name" x="{LEFT - 44}" y="{middle:g}">{escape(curve.name)}</text>'
+    if curve.other:
+        yield f'<text class="name second" x="{LEFT - 44}" y="{middle + 16:g}">{escape(curve.other_name)}</text>'
     for value in dict.fromkeys((low, 0.0, high)):
         yield f'<path class="rule" d="M{LEFT} {at(value):.1f}H{WIDTH - RIGHT}"/>'
         yield f'<text class="name small" x="{LEFT - 6}" y="{at(value) + 4:.1f}">{value:.5g}</text>'
     stride, last = max(1, round(FINE / step)), len(curve.values) - 1
-    points = " ".join(f"{LEFT + k * step:.1f},{at(curve.values[k]):.1f}" for k in [*range(0, last, stride), last])
-    yield f'<polyline class="curve" points="{points}"/>'
+    for kind, values in (("other", curve.other), ("curve", curve.values)):
+        if values:
+            points = " ".join(f"{LEFT + k * step:.1f},{at(values[k]):.1f}" for k in [*range(0, last, stride), last])
+            yield f'<polyline class="{kind}" points="{points}"/>'
 
 
 def _axis(length_ms: float, y: float) -> Iterator[str]:

@@ -106,6 +106,7 @@ class _Seen:
         self._values: dict[str, list[float]] = {source: [] for source, _ in scenario.curves}
 
     def look(self, ref: fb.AXIS_REF) -> None:
+        """Note what there is in this cycle."""
         for (name, signal), values in self._flags.items():
             values.append(bool(getattr(self._made[name], signal)))
         for source, values in self._values.items():
@@ -123,6 +124,7 @@ class _Seen:
         return found
 
     def curves(self, unit: str) -> list[Curve]:
+        """Return the curves; the unit of the axis is part of their names."""
         per = {"velocity": f", {unit}/s", "position": f", {unit}"}
         names = dict(self._scenario.curves)
         return [
@@ -224,7 +226,7 @@ def _outputs(block: fb.Block) -> dict[str, str]:
     for base in type(block).__mro__:
         for name, text in _attributes(base):
             if not name.isupper() and name not in found and name not in {*block.INPUTS, *type(block).HIDDEN}:
-                found[name] = text.rstrip(".")
+                found[name] = text.rstrip(".").replace("`ErrorId`", "the [errors](../errors.md)")
     own = [name for name in found if name not in LAST]
     return {name: found[name] for name in [*own, *(name for name in LAST if name in found)]}
 

@@ -56,6 +56,7 @@ class _Seen:
         self.curves: dict[str, list[float]] = {"act. position, mm": [], "act. velocity, mm/s": []}
 
     def look(self, axis: Any) -> None:  # noqa: ANN401 - an axis of the layer
+        """Note what there is in this cycle."""
         command, progress = axis.state.split()
         self.commands.append(AxisCommand(axis.ctrl.cmd).name)
         self.shown.append(AxisCommand(command).name)

@@ -13,6 +13,11 @@ SHARE: Final = 4
 LEAST: Final = 5
 
 
+def quick() -> bool:
+    """Tell whether this is the quick suite."""
+    return settings.get_current_profile_name() == QUICK
+
+
 def register() -> None:
     """Make the profile known; a test that names no count takes a share of the usual one."""
     settings.register_profile(QUICK, max_examples=settings.get_profile("default").max_examples // SHARE)
@@ -20,4 +25,4 @@ def register() -> None:
 
 def examples(count: int) -> int:
     """Return how many of `count` examples to try."""
-    return max(count // SHARE, LEAST) if settings.get_current_profile_name() == QUICK else count
+    return max(count // SHARE, LEAST) if quick() else count

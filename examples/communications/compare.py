@@ -142,6 +142,7 @@ def show(outcomes: dict[str, Outcome]) -> None:
 
 
 def main() -> None:
+    """Run the program over each communication, and compare: `python compare.py [SPEED [BROKER_PORT]]`."""
     speed = float(sys.argv[1]) if len(sys.argv) > 1 else 1.0
     outcomes = {"in process": in_process(), "images": by_images(), "ADS": by_ads(speed)}
     if len(sys.argv) > 2:

@@ -27,6 +27,7 @@ async def until_told(run: RealTime) -> None:
 
 
 def main() -> None:
+    """Run the motion machine for the clients of its servers."""
     trace, speed, *broker = sys.argv[1:]
     mqtt = MqttDescription(port=int(broker[0])) if broker else None
     ads = AdsDescription(port=0, net_id=NET_ID, mqtt=mqtt)

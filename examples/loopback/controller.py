@@ -15,12 +15,14 @@ async def command(axis: AxisObject, what: AxisCommand) -> None:
 
 
 async def move(axis: AxisObject, position: float, velocity: float) -> None:
+    """Move to a position in mm, with a velocity in mm/s, and wait until the state says that it is there."""
     axis.data.position = position
     axis.data.velocity = velocity
     await command(axis, AxisCommand.MOVE_POS)
 
 
 async def main(run: MachineRun) -> None:
+    """Switch the axes on, visit all places with Z up on the way, switch them off."""
     layer = run.layer
     await layer.started()
     x, y, z = layer.axis

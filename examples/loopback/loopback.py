@@ -9,6 +9,7 @@ HERE = Path(__file__).parent
 
 
 def main() -> None:
+    """Run both machines in one process, and judge what the axes did."""
     motion, control = Machine.load(HERE / "motion.toml"), Machine.load(HERE / "control.toml")
     with Simulation(motion) as axes, Simulation(control) as controller:
         Loopback(axes, controller).run(time=60.0)

@@ -1,7 +1,10 @@
+"""The belt between the stations: three strokes, and time for the presses after each."""
+
 from motionlayer import Simulation
 
 
 async def main(run: Simulation) -> None:
+    """Move the belt on three times by 100 mm."""
     belt = run.axes["Belt"]
     await belt.enable()
     for _ in range(3):

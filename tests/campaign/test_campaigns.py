@@ -22,7 +22,7 @@ from motionlayer.event import Kind
 from motionlayer.nc import Axis, BufferMode
 from motionlayer.profile import Profile
 from motionlayer.record import Trace
-from tests.effort import examples
+from tests.effort import examples, quick
 
 Operator = Callable[[np.random.Generator, Trace], Damage | None]
 SEED = 1
@@ -30,10 +30,11 @@ SLOW = MODE == "plain"
 SHORT = {
     "planning": BLOCK // 20 if SLOW else examples(4 * BLOCK),
     "life": 2 if SLOW else examples(40),
-    "blocks": 1 if SLOW else 3,
+    "blocks": 1 if SLOW or quick() else 3,
     "contract": 1 if SLOW else examples(20),
     "mutation": 5 if SLOW else examples(4 * BATCH),
     "ads": 200,
+    "siege": 10,
 }
 
 
@@ -45,7 +46,8 @@ def test_the_short_form_finds_nothing(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "case"), [("planning", 1234), ("life", 5), ("blocks", 7), ("contract", 3), ("mutation", 57), ("ads", 3)]
+    ("name", "case"),
+    [("planning", 1234), ("life", 5), ("blocks", 7), ("contract", 3), ("mutation", 57), ("ads", 3), ("siege", 3)],
 )
 def test_a_case_is_made_from_seed_and_number_alone(name: str, case: int) -> None:
     campaign = CAMPAIGNS[name]
@@ -207,7 +209,9 @@ def test_lives_that_broke_a_rule_once(file: Path) -> None:
     behind a passed target, a target on a software limit, a start outside that begins with a sliver. An override that
     rises when a hold has carried the axis too near to a joint for its acceleration to be taken back, and
     one that changes in the tick in which an error ends a motion at rest. An override that rises before a joint behind
-    which an end velocity could not be braked before the software limit.
+    which an end velocity could not be braked before the software limit. A position redefined at rest, an additive move
+    and a shift of it in one tick. A shift before the turn behind which a joint is passed, whose place already lies
+    behind the axis. A position redefined in the tick in which a homing has redefined it.
     """
     data = json.loads(file.read_text())
     assert violations(*live(Life(data["machine"], from_data(data["parts"])))) == []

@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 from motionlayer import Simulation
 from motionlayer.event import Event, Kind, Level
+from motionlayer.layer import AxisCommand
 
 
 async def main(run: Simulation) -> None:
@@ -27,9 +28,27 @@ async def careless(run: Simulation) -> None:
     await run.sleep(0.2)
 
 
+async def by_layer(run: Simulation) -> None:
+    await run.layer.started()
+    x = run.layer.axis["X"]
+    x.ctrl.cmd = AxisCommand.ENABLE
+    await x.state.done(AxisCommand.ENABLE)
+    x.data.position, x.data.velocity, x.ctrl.cmd = 9000.0, 100.0, AxisCommand.MOVE_POS
+    await x.state.done(AxisCommand.MOVE_POS)
+
+
 async def noisy(run: Simulation) -> None:
     for tick in range(7):
         run.events.add(Event(tick, Level.WARNING, Kind.MESSAGE, "X", f"message {tick}"))
+    await run.sleep(0.01)
+
+
+async def flooding(run: Simulation) -> None:
+    run.events.add(Event(0, Level.ERROR, Kind.MESSAGE, "X", "X: the drive is not ready", 0x4650, 0, 14_001))
+    run.events.add(Event(0, Level.ERROR, Kind.ERROR, "X", "X.move: the drive is not ready", 0x4650, 7, 14_001))
+    for tick in range(1, 30):
+        text = f"{tick} ticks late, to be caught up; programs, {tick}.5 ms"
+        run.events.add(Event(tick, Level.WARNING, Kind.MESSAGE, "runtime", text))
     await run.sleep(0.01)
 
 
@@ -60,6 +79,11 @@ async def raising(run: Simulation) -> None:
     await run.sleep(0.05)
     assert move.busy
     raise ValueError("boom")
+
+
+async def misspelling(run: Simulation) -> None:
+    await run.axes["X"].enable()
+    await run.axes["X"].move_absolut(300.0)  # type: ignore[attr-defined]
 
 
 async def raising_in_library(run: Simulation) -> None:

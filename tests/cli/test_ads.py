@@ -8,7 +8,7 @@ import socket
 import subprocess
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import click
@@ -20,6 +20,8 @@ from motionlayer.cli._watch import SHOWN
 from motionlayer.connect.ads import Tree
 from motionlayer.machine import Machine, Simulation
 from tests.cli.support import MACHINE, SOURCE, call, program
+from tests.connect.ads_clients import Paced
+from tests.connect.broker import free_port
 
 LAYER = "\n[layer]\n"
 ADS = "\n[ads]\nport = 0\n"
@@ -41,7 +43,7 @@ def served(machine: Path) -> Path:
 def tree(path: Path) -> Tree:
     with Simulation(Machine.load(path), ads=False) as run:
         run.step()
-        return run.ads.tree
+        return run.ads_tree
 
 
 @pytest.mark.parametrize(
@@ -50,6 +52,7 @@ def tree(path: Path) -> Tree:
         ("", (None, None)),
         ("10.0.0.1", ("10.0.0.1", None)),
         (":0", (None, 0)),
+        ("48911", (None, 48_911)),
         ("localhost:48899", ("localhost", 48_899)),
         ("[::1]", ("::1", None)),
         ("[::1]:7", ("::1", 7)),
@@ -59,7 +62,7 @@ def test_addresses(text: str, found: tuple[str | None, int | None]) -> None:
     assert address(text) == found
 
 
-@pytest.mark.parametrize("text", [":", ":x", "here:65536", "here:-1", "here:1.5"])
+@pytest.mark.parametrize("text", [":", ":x", "65536", "here:65536", "here:-1", "here:1.5"])
 def test_what_is_no_address(text: str) -> None:
     with pytest.raises(click.BadParameter, match=r"the port must be 0 to 65535, as in 127\.0\.0\.1:48898"):
         address(text)
@@ -85,9 +88,24 @@ def test_members_are_listed_where_asked_for(layered: Path) -> None:
     assert rows["GVL_AXIS.State[1].eState"][:3] == ["E_AXIS_STATE", "2", "r"]
     found = tree(layered)
     for name, row in rows.items():
+        if "#" in name:
+            continue
         place = found.find(name)
         size, access = next((int(one), two) for one, two in itertools.pairwise(row) if two in ("r", "rw"))
         assert (place.type.size, place.root.writable) == (size, access == "rw"), name
+
+
+def test_methods_are_listed_with_the_bytes_of_a_call(layered: Path) -> None:
+    assert "#" not in call("symbols", layered).stdout
+    lines = call("symbols", layered, "--all").stdout.splitlines()
+    rows = {line.split()[0]: line.split()[1:] for line in lines if "#" in line.split()[0]}
+    kind = tree(layered).type_named("FB_MOTION_AXIS")
+    assert list(rows) == [f"GVL_MOTION.Axis[1]#{method.name}" for method in kind.methods]
+    halt = rows["GVL_MOTION.Axis[1]#Halt"]
+    assert halt[:3] == ["UDINT", "18", "x"]
+    assert " ".join(halt).endswith(
+        "(Deceleration : LREAL, Jerk : LREAL, BufferMode : MC_BufferMode) => Command : UDINT"
+    )
 
 
 def test_symbols_of_a_machine_without_a_motion_layer(machine: Path) -> None:
@@ -139,7 +157,7 @@ def test_a_port_that_is_none(served: Path) -> None:
 def test_a_simulation_that_clients_alone_command_needs_a_time(served: Path) -> None:
     done = call("run", served)
     assert done.exit_code == ExitCode.USAGE
-    assert "the run would never end" in done.stderr
+    assert "give --program FILE[:NAME], or --time S, or --realtime, where ADS clients command it" in done.stderr
 
 
 @contextmanager
@@ -168,23 +186,22 @@ def running(path: Path) -> Iterator[tuple[subprocess.Popen[str], str]]:
 @pytest.mark.slow
 def test_values_of_a_run_are_watched_until_it_is_interrupted(served: Path) -> None:
     with running(served) as (process, where):
-        done = call("watch", "GVL_AXIS.State[1]", "main_axis.einit", "--ads", where, "--cycle", 0.01, "--time", 0.5)
+        done = call("watch", "GVL_AXIS.State[1]", "main_axis.einit", "--ads", where, "--cycle", 0.01, "--time", 2.0)
         assert done.exit_code == ExitCode.OK, done.output
         lines = [re.fullmatch(r"\d\d:\d\d:\d\d\.\d{3} (\S+) = (.*)", line) for line in done.stdout.splitlines()]
         values = {line[1].lower(): line[2] for line in lines if line is not None}
         assert len(values) == 3
         assert values["gvl_axis.state[1].eaxisencoder"] == "Simulation_Encoder"
+        assert re.fullmatch(r"\d+ AXIS_\w+ \+ PROGRESS_\w+", values["gvl_axis.state[1].estate"])
         assert values["main_axis.einit"] == "PROGRESS_DONE"
 
         wrong = call("watch", "GVL_AXIS.Nothing", "--ads", where)
-        assert (wrong.exit_code, wrong.stderr) == (
-            ExitCode.FAILED,
-            "Error: GVL_AXIS.Nothing: symbol not found (0x710)\n",
-        )
+        assert wrong.exit_code == ExitCode.FAILED
+        assert wrong.stderr.startswith("Error: GVL_AXIS.Nothing: symbol not found (0x710); did you mean GVL_AXIS.")
 
         many = call("watch", "GVL_MSG_AXIS.MotionMessages", "--ads", where)
         assert many.exit_code == ExitCode.USAGE
-        assert f"at most {SHOWN} are shown; name members" in many.stderr
+        assert f"more than {SHOWN} values are not shown; name members" in many.stderr
 
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=30)
@@ -203,3 +220,28 @@ def test_nobody_is_there_to_be_watched() -> None:
 def test_wrong_use_of_watch(options: list[str]) -> None:
     names = ["GVL.X"] if options else []
     assert call("watch", *names, *options).exit_code == ExitCode.USAGE
+
+
+@pytest.mark.slow
+def test_a_device_that_goes_is_waited_for(served: Path) -> None:
+    port = free_port()
+    served.write_text(served.read_text(encoding="utf-8").replace("port = 0", f"port = {port}"), encoding="utf-8")
+    name = "GVL_AXIS.Data[1].rOverride"
+    line = [sys.executable, "-m", "motionlayer", "watch", name, "--ads", f":{port}", "--cycle", "0.01"]
+    with ExitStack() as stack:
+        run = stack.enter_context(Simulation(Machine.load(served)))
+        paced = stack.enter_context(ExitStack())
+        paced.enter_context(Paced(run))
+        environment = {**os.environ, "PYTHONPATH": str(SOURCE)}
+        watching = stack.enter_context(
+            subprocess.Popen(line, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        )
+        stack.callback(watching.kill)
+        assert watching.stdout is not None
+        assert f"{name} = " in watching.stdout.readline()
+        paced.close()
+        run.close()
+        assert "waiting for the device to come back" in watching.stdout.readline()
+        with Simulation(Machine.load(served)) as again, Paced(again):
+            assert watching.stdout.readline() == "the device is there again\n"
+            assert f"{name} = " in watching.stdout.readline()

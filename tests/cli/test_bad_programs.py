@@ -16,6 +16,7 @@ def ticks(stdout: str) -> int:
     ("name", "said", "line"),
     [
         ("raising", "ValueError: boom", 'ValueError("boom")'),
+        ("misspelling", "no attribute 'move_absolut'; did you mean move_absolute?", "move_absolut("),
         ("raising_in_library", "JSONDecodeError: Expecting value", 'json.loads("nonsense")'),
         ("foreign", "await run.sleep(seconds)", "await asyncio.sleep(1)"),
         ("refused", "the axis is not enabled", "move_absolute(10.0)"),
@@ -36,6 +37,15 @@ def test_a_program_that_fails(machine: Path, name: str, said: str, line: str) ->
     last = [event for event in trace.events if event.source == f"program {name}"][-1]
     assert last.level is Level.ERROR
     assert call("verify", "run.trace").exit_code == ExitCode.OK, call("verify", "run.trace").stdout
+
+
+def test_a_command_of_the_layer_that_fails(machine: Path) -> None:
+    machine.write_text(machine.read_text(encoding="utf-8") + "[layer]\n", encoding="utf-8")
+    done = call("run", machine, *program("by_layer"))
+    assert done.exit_code == ExitCode.FAILED, done.output
+    (error,) = done.stderr.splitlines()
+    assert error.startswith("Error: program by_layer: X: MOVE_POS: the state is 9012, PROGRESS_ERROR; error 0x4222")
+    assert error.endswith(f"({PROGRAMS}:{line_of('done(AxisCommand.MOVE_POS)')} in by_layer)")
 
 
 def test_the_page_of_a_failed_run_is_drawn(machine: Path) -> None:

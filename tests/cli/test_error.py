@@ -2,6 +2,8 @@ import pytest
 
 from motionlayer.cli import ExitCode
 from motionlayer.command import ErrorId
+from motionlayer.connect.ads import MEANINGS
+from motionlayer.connect.ads._codes import Code
 from tests.cli.support import call
 
 
@@ -37,7 +39,10 @@ def test_every_error_is_explained() -> None:
         ("0x4291", "0x4291 is no error: did you mean 0x4290, BRAKING_ALREADY?"),
         ("buffer_ful", "'buffer_ful' is no error: did you mean BUFFER_FULL?"),
         ("0x42zz", "'0x42zz' is no error: give 0x4225, 16933 or a name"),
-        ("99999999999999999999", "did you mean 0xF000, PROGRAM_FAILED?"),
+        ("99999999999999999999", "is no error: give 0x4225, 16933 or a name"),
+        ("0x9999", "0x9999 is no error: give 0x4225, 16933 or a name; docs/errors.md lists all"),
+        ("9999", "9999 is no error: give"),
+        ("2", "2 is no error: give"),
     ],
 )
 def test_an_unknown_one_names_the_nearest(text: str, meant: str) -> None:
@@ -45,6 +50,35 @@ def test_an_unknown_one_names_the_nearest(text: str, meant: str) -> None:
     assert done.exit_code == ExitCode.USAGE
     assert done.stdout == ""
     assert meant in done.stderr
+
+
+@pytest.mark.parametrize("text", ["0x745", "1861"])
+def test_ads_codes_are_explained(text: str) -> None:
+    lines = call("error", text).stdout.splitlines()
+    assert lines == [
+        "0x0745 (1861) ADS return code: time-out",
+        "  what to do   nobody listens there, or the run is not stepped: motionlayer run … --realtime --ads",
+    ]
+
+
+def test_every_code_that_the_server_sends_is_explained() -> None:
+    assert set(Code) - set(MEANINGS) == {Code.NO_ERROR}
+    done = call("error", *map(str, MEANINGS))
+    assert done.exit_code == ExitCode.OK
+    assert done.stdout.count("ADS return code") == len(MEANINGS)
+
+
+@pytest.mark.parametrize(
+    ("number", "told"),
+    [
+        (9012, "AXIS_MOVE_POS + PROGRESS_ERROR: AXIS_MOVE_POS failed\n  what to do   read nErrorId"),
+        (10002, "AXIS_DISABLE + PROGRESS_DONE: AXIS_DISABLE is done"),
+        (150, "AXIS_GEAR_IN + PROGRESS_NOT_EXIST: AXIS_GEAR_IN is not built"),
+        (6012, "AXIS_MOVE_POS + PROGRESS_OCCUPIED: AXIS_MOVE_POS is under way"),
+    ],
+)
+def test_a_state_is_told_from_an_error(number: int, told: str) -> None:
+    assert call("error", number).stdout.startswith(f"{number} is a state and no error: {told}")
 
 
 def test_none_is_a_usage_error() -> None:

@@ -65,7 +65,7 @@ def test_a_full_disk(machine: Path) -> None:
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
-@pytest.mark.parametrize("name", ["check", "error", "schema"])
+@pytest.mark.parametrize("name", ["check", "error", pytest.param("schema", marks=pytest.mark.slow)])
 def test_results_on_a_full_disk(machine: Path, name: str) -> None:
     arguments = {"check": [str(machine)], "error": ["0x4260"], "schema": []}[name]
     with Path("/dev/full").open("w", encoding="utf-8") as full:
@@ -202,7 +202,7 @@ def test_bench_hands_over_its_exit_code() -> None:
     assert call("bench", "no_such_group").exit_code == ExitCode.USAGE
 
 
-@pytest.mark.parametrize("buffering", ["", "1"])
+@pytest.mark.parametrize("buffering", ["", pytest.param("1", marks=pytest.mark.slow)])
 def test_a_reader_of_stdout_that_goes_away(machine: Path, buffering: str) -> None:
     """As `motionlayer run … | head -1` does; with a buffer the pipe breaks some lines later."""
     Path("chatty.py").write_text(CHATTY, encoding="utf-8")

@@ -1,3 +1,4 @@
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -26,6 +27,16 @@ def test_a_new_machine_runs_at_once_and_moves_within_its_limits(tmp_path: Path) 
         assert run.failures == []
         assert (run.axes["X"].set_position, run.axes["Y"].set_position) == (0.0, 0.0)
         assert_valid(run.trace)
+
+
+def test_what_is_commented_out_becomes_a_machine_that_clients_reach(tmp_path: Path) -> None:
+    call("new", "cell", "--folder", tmp_path)
+    path = tmp_path / "cell" / "machine.toml"
+    text = path.read_text(encoding="utf-8")
+    path.write_text(re.sub(r"^# (?=\[|port|folder)", "", text, flags=re.MULTILINE), encoding="utf-8")
+    description = Machine.load(path).description
+    assert description.layer is not None
+    assert (description.ads is not None, description.log is not None) == (True, True)
 
 
 def test_the_new_program_has_correct_types(tmp_path: Path) -> None:

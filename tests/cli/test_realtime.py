@@ -14,11 +14,13 @@ from pathlib import Path
 import pytest
 
 from motionlayer.cli import ExitCode
+from motionlayer.cli._distribution import overruns
 from motionlayer.cli._options import FASTEST, SLOWEST
 from motionlayer.machine import REALTIME_PATIENCE
 from motionlayer.record import Trace
 from motionlayer.runtime import FASTEST as FASTEST_PACE
 from motionlayer.runtime import SLOWEST as SLOWEST_PACE
+from motionlayer.runtime import Histogram, Statistics
 from tests.cli.support import MACHINE, SOURCE, call, program, recorded
 
 QUIET = "[realtime]\npriority = 0\nlock_memory = false\n"
@@ -129,7 +131,11 @@ def test_a_hang_up_that_is_ignored_stays_ignored(machine: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("number", "code"), [(signal.SIGINT, ExitCode.INTERRUPTED), (signal.SIGTERM, ExitCode.TERMINATED)]
+    ("number", "code"),
+    [
+        (signal.SIGINT, ExitCode.INTERRUPTED),
+        pytest.param(signal.SIGTERM, ExitCode.TERMINATED, marks=pytest.mark.slow),
+    ],
 )
 def test_a_signal_does_not_wait_for_the_next_tick(slow_machine: Path, number: signal.Signals, code: ExitCode) -> None:
     options = [str(slow_machine), *program("waiting"), "--realtime", "--speed", "0.01", "--trace", "run.trace"]
@@ -143,6 +149,18 @@ def test_a_signal_does_not_wait_for_the_next_tick(slow_machine: Path, number: si
     assert process.stdout is not None
     assert process.stdout.readline() == "waiting\n"
     process.send_signal(number)
-    _, errors = process.communicate(timeout=5.0)  # the next tick is ten seconds away
+    try:
+        _, errors = process.communicate(timeout=9.0)  # the next tick is ten seconds away
+    finally:
+        process.kill()
     assert process.returncode == code, errors
     assert Trace.load("run.trace").complete
+
+
+@pytest.mark.parametrize(
+    ("brakes", "said"),
+    [(0, "3 of 0 ticks; time never slipped"), (1, "; all axes braked once"), (2, "; all axes braked 2 times")],
+)
+def test_the_summary_says_how_often_the_axes_braked(brakes: int, said: str) -> None:
+    found = Statistics(Histogram(), Histogram(), {}, overruns=3, slips=0, slipped=0.0, brakes=brakes)
+    assert overruns(found).endswith(said)

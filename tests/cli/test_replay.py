@@ -47,9 +47,11 @@ def recorded(*options: object, code: ExitCode = ExitCode.OK) -> Trace:
     return Trace.load("run.trace")
 
 
-def simulated(*options: object) -> None:
+def simulated(*options: object, code: ExitCode = ExitCode.OK) -> Trace:
     """Record a simulation in this process."""
-    assert call("run", "machine.toml", *options, "--trace", "run.trace").exit_code == ExitCode.OK
+    done = call("run", "machine.toml", *options, "--trace", "run.trace")
+    assert done.exit_code == code, done.output
+    return Trace.load("run.trace")
 
 
 def same(compared: str = "the hash, ") -> None:
@@ -98,7 +100,7 @@ def test_a_simulation() -> None:
 
 def test_faults_noise_and_another_seed() -> None:
     Path("machine.toml").write_text(MACHINE + SERVO + QUIET, encoding="utf-8")
-    trace = recorded("--program", "programs.py:shuttle", "--time", 0.6, "--seed", 77, code=ExitCode.FAILED)
+    trace = simulated("--program", "programs.py:shuttle", "--time", 0.6, "--seed", 77, code=ExitCode.FAILED)
     assert trace.header["seed"] == 77
     assert [event for event in trace.events if event.level is Level.ERROR]
     same()
@@ -145,7 +147,7 @@ def test_a_signal_at_any_time(number: signal.Signals, code: ExitCode, cause: str
 
 
 def test_a_program_that_never_yields_is_compared_up_to_that_tick() -> None:
-    trace = recorded("--program", "programs.py:stuck", "--patience", 0.3, code=ExitCode.STUCK)
+    trace = simulated("--program", "programs.py:stuck", "--patience", 0.3, code=ExitCode.STUCK)
     assert trace.end is not None
     assert trace.end.inside
     same(f"up to tick {trace.end.tick}, inside of which the run ended (a program did not yield)")

@@ -43,6 +43,15 @@ def test_messages_are_counted_and_the_last_ones_shown(machine: Path) -> None:
     assert "messages    0 errors, 1 warning:" in call("run", machine, *program("refused")).stdout.splitlines()
 
 
+def test_a_flood_of_warnings_hides_no_error_and_one_fault_is_one_line(machine: Path) -> None:
+    lines = call("run", machine, *program("flooding")).stdout.splitlines()
+    start = lines.index("messages    2 errors, 29 warnings:")
+    assert [line.split("  ")[-1] for line in lines[start + 1 :]] == [
+        "X: the drive is not ready (and 1 more of the same)",
+        "runtime: 1 ticks late, to be caught up; programs, 1.5 ms (29 times, the last at 0.029000 s)",
+    ]
+
+
 def test_a_message_of_the_motion_layer_is_told_with_its_subdevice_and_number(machine: Path) -> None:
     machine.write_text(MACHINE + "[layer]\n", encoding="utf-8")
     source = """
@@ -102,7 +111,7 @@ def test_wrong_options(machine: Path, arguments: list[str], said: str) -> None:
 
 def test_the_hash_depends_on_nothing_but_the_run(machine: Path) -> None:
     """Neither on hash seeds, nor on the mode of the kernels, nor on what is recorded."""
-    run = ("run", machine, *program("main"))
+    run = ("run", machine, *program("main"), "--time", 0.2)
     ways = [
         command(*run, "--hash", PYTHONHASHSEED="1"),
         command(*run, "--hash", PYTHONHASHSEED="2", MOTIONLAYER_KERNELS="plain"),

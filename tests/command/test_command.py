@@ -125,4 +125,8 @@ def test_repr_names_command_and_state(end: str | None) -> None:
     command: Command[int] = Command("X.move")
     if end is not None:
         ENDS[end](command)
-    assert repr(command) == f"<Command X.move {end or 'busy'}>"
+    state = f"error 0x4221: {ERROR.text}" if end == "error" else end or "busy"
+    assert repr(command) == f"<Command X.move {state}>"
+    if end is None:
+        command.activate()
+        assert repr(command) == "<Command X.move active>"

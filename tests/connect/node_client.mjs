@@ -1,4 +1,4 @@
-// What the npm package ads-client makes of the server: node node_client.mjs host:port all|reconnect
+// What the npm package ads-client makes of the server: node node_client.mjs host:port all|reconnect|restarts
 
 import assert from 'node:assert/strict';
 import { Client } from 'ads-client';
@@ -107,6 +107,7 @@ async function errors() {
   await assert.rejects(client.readValue('GVL.Nothing'));
 }
 
+// shown: methods
 async function methods() {
   const axis = 'GVL_MOTION.Axis[1]';
   const refused = await client.invokeRpcMethod(axis, 'Halt', { Deceleration: 0, Jerk: 0, BufferMode: 1 });
@@ -120,6 +121,7 @@ async function methods() {
   const shown = await watched(axis, (value) => value.Command === outputs.Command && !value.Busy);
   assert.equal(shown.Done, true);
 }
+// end
 
 // Goes on with its notification when the server has been away.
 async function reconnect() {
@@ -133,9 +135,30 @@ async function reconnect() {
   await again;
 }
 
+// Restarts the run, by the port of the PLC and by that of the system; notifications go on.
+async function restarts() {
+  const seen = new Set();
+  await client.subscribeValue('GVL.Count', ({ value }) => seen.add(value), 10);
+  const told = async (value) => {
+    await client.writeValue('GVL.Count', value);
+    while (!seen.has(value)) await client.readValue('GVL.Count');
+  };
+  await told(1);
+  const version = new Promise((resolve) => { client.once('plcSymbolVersionChange', resolve); });
+  await client.restartPlc();
+  await version;
+  assert.equal((await client.readValue('GVL.Count')).value, 0);
+  await told(2);
+  const back = new Promise((resolve) => { client.once('reconnect', resolve); });
+  await client.setTcSystemToRun();
+  assert.equal(await back, true);
+  await told(3);
+}
+
 const PARTS = {
   all: [tree, everyTypeAlone, everyTypeInOneStructure, handlesAndSums, notifications, errors, methods],
   reconnect: [reconnect],
+  restarts: [restarts],
 };
 
 await client.connect();

@@ -21,7 +21,7 @@ def conversation(name: str) -> list[tuple[bytes, bytes]]:
 
 
 def test_there_are_conversations() -> None:
-    assert {"pyads", "watch"} <= set(NAMES)
+    assert set(NAMES) == {"pyads", "watch", "node", "cpp"}
 
 
 @pytest.mark.parametrize("name", NAMES)

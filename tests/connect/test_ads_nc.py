@@ -11,7 +11,7 @@ import pytest
 
 from motionlayer import AxisState, Machine, Simulation
 from motionlayer.command import ErrorId
-from motionlayer.nc import Axis, StateDWord
+from motionlayer.nc import Axis, BufferMode, StateDWord
 from motionlayer.verify import assert_valid
 from tests.connect.ads_clients import Paced, connected
 from tests.machines import LINEAR
@@ -20,8 +20,9 @@ PARAMETERS, STATE, FUNCTIONS, CYCLIC = 0x4000, 0x4100, 0x4200, 0x4300
 ENCODER_PARAMETERS, CONTROLLER_PARAMETERS, ENCODER_STATE, CONTROLLER_STATE = 0x5000, 0x6000, 0x5100, 0x6100
 PORTS = 500, 501
 
-RESET, STOP, EMERGENCY_STOP, HALT, HOME, END_POSITION = 0x01, 0x02, 0x04, 0x05, 0x10, 0x11
-CONTROL, ENABLE, FEED_PLUS, FEED_MINUS, OVERRIDE = 0x01, 0x02, 0x03, 0x04, 0x21
+RESET, STOP, CLEAR, EMERGENCY_STOP, HALT, ORIENTED_STOP = 0x01, 0x02, 0x03, 0x04, 0x05, 0x09
+HOME, END_POSITION = 0x10, 0x11
+CONTROL, ENABLE, FEED_PLUS, FEED_MINUS, HOMING_CAM, OVERRIDE = 0x01, 0x02, 0x03, 0x04, 0x07, 0x21
 CYCLES, SET_POSITION, SET_VELOCITY = 0x09, 0x0A, 0x0E
 ABSOLUTE, RELATIVE = 1, 2
 
@@ -82,7 +83,7 @@ class Nc:
             pass
 
 
-@pytest.fixture(params=PORTS)
+@pytest.fixture(params=[pytest.param(PORTS[0], marks=pytest.mark.slow), PORTS[1]])
 def nc(request: pytest.FixtureRequest) -> Iterator[Nc]:
     """Serve a run; what it has moved is judged in the end."""
     with Simulation(Machine.from_dict(MACHINE)) as run:
@@ -96,11 +97,21 @@ def text(raw: bytes) -> str:
     return raw.partition(b"\0")[0].decode("cp1252")
 
 
+def test_both_ports_are_those_of_the_nc() -> None:
+    with Simulation(Machine.from_dict(MACHINE)) as run, Paced(run):
+        for port in PORTS:
+            with connected(run.ads.port, port) as plc:
+                nc = Nc(run, plc)
+                nc.on()
+                assert (nc.value(PARAMETERS, 0x01, "I", 2), nc.axis.state) == (2, AxisState.STANDSTILL)
+
+
 def test_parameters_are_those_of_the_machine_file(nc: Nc) -> None:
     assert [nc.value(PARAMETERS, 0x01, "I", axis) for axis in (1, 2)] == [1, 2]
     assert [text(nc.read(PARAMETERS, 0x02, 31, axis)) for axis in (1, 2)] == ["X", "Y"]
     assert [text(nc.read(PARAMETERS, 0x05, 11, axis)) for axis in (1, 2)] == ["mm", "deg"]
     assert nc.value(PARAMETERS, 0x04, "I") == 1000
+    assert nc.value(PARAMETERS, 0x10003, "I") == nc.value(ENCODER_PARAMETERS, 0x03, "I") == 1
     limits = [nc.value(PARAMETERS, offset, "d") for offset in (0x27, 0x101, 0x102, 0x103, 0x1000D, 0x1000E)]
     assert limits == [500.0, 5000.0, 6000.0, 1e5, -100.0, 400.0]
     assert [nc.value(PARAMETERS, offset, "H") for offset in (0x1000B, 0x1000C)] == [1, 1]
@@ -175,6 +186,7 @@ def test_an_axis_is_switched_on_and_off_bit_by_bit(nc: Nc) -> None:
     nc.until(AxisState.STANDSTILL)
     assert nc.value(CYCLIC, CONTROL, "I") == 0b111
     assert nc.write(CYCLIC, FEED_PLUS, "H", 0) == 0
+    assert [nc.value(CYCLIC, offset, "H") for offset in (ENABLE, FEED_PLUS, FEED_MINUS)] == [1, 0, 1]
     assert nc.write(FUNCTIONS, END_POSITION, "2Id", RELATIVE, 0, 5.0) == ErrorId.FEED_NOT_ENABLED
     assert nc.write(FUNCTIONS, END_POSITION, "2Id", RELATIVE, 0, -5.0) == 0
     nc.until(AxisState.STANDSTILL)
@@ -198,6 +210,7 @@ def test_the_override_slows_a_motion_down(nc: Nc) -> None:
     ("offset", "kind", "values"),
     [
         (STOP, "", ()),
+        (CLEAR, "", ()),
         (HALT, "2d", (3000.0, 5e4)),
         (EMERGENCY_STOP, "2d", (0.0, 0.0)),
         (EMERGENCY_STOP, "2d", (6000.0, 1e5)),
@@ -211,6 +224,73 @@ def test_a_motion_is_stopped(nc: Nc, offset: int, kind: str, values: tuple[float
     assert nc.write(FUNCTIONS, offset, kind, *values) == 0
     nc.until(AxisState.STANDSTILL)
     assert 0.0 < nc.axis.set_position < 390.0
+
+
+def test_clear_task_drops_what_waits() -> None:
+    async def program(run: Simulation) -> None:
+        axis = run.axes["X"]
+        await axis.enable()
+        moves = axis.move_absolute(300.0), axis.move_absolute(350.0, buffer_mode=BufferMode.BUFFERED)
+        for move in moves:
+            await move.settled()
+        assert all(move.aborted for move in moves)
+
+    with Simulation(Machine.from_dict(MACHINE)) as run:
+        moves = run.start(program(run))
+        with Paced(run), connected(run.ads.port, 501) as plc:
+            nc = Nc(run, plc)
+            while nc.value(STATE, SET_VELOCITY, "d") < 100.0:
+                pass
+            assert nc.write(FUNCTIONS, CLEAR) == 0
+            nc.until(AxisState.STANDSTILL)
+        assert moves.done, moves.error
+        assert nc.axis.set_position < 300.0
+        trace = run.trace
+    assert_valid(trace)
+
+
+def test_an_oriented_stop_ends_in_its_orientation(nc: Nc) -> None:
+    nc.on()
+    assert nc.write(FUNCTIONS, END_POSITION, "2Id", ABSOLUTE, 0, 390.0) == 0
+    while nc.axis.set_velocity < 200.0:
+        nc.value(STATE, SET_VELOCITY, "d")
+    assert nc.write(FUNCTIONS, ORIENTED_STOP, "3d", 300.0, 5000.0, 0.0) == 0
+    nc.until(AxisState.STANDSTILL)
+    assert nc.axis.set_position == 300.0
+
+
+def test_an_oriented_stop_that_means_nothing_is_refused_and_one_at_rest_stays(nc: Nc) -> None:
+    nc.on()
+    for orientation in (-1.0, 360.0, float("nan")):
+        assert nc.write(FUNCTIONS, ORIENTED_STOP, "3d", orientation, 0.0, 0.0) == ErrorId.ORIENTED_STOP_TARGET
+    assert nc.write(FUNCTIONS, ORIENTED_STOP, "3d", 90.0, 0.0, 0.0) == 0
+    assert nc.axis.set_position == 0.0
+    assert nc.write(FUNCTIONS, END_POSITION, "2Id", ABSOLUTE, 0, 390.0) == 0
+    while nc.axis.set_velocity < 50.0:
+        nc.value(STATE, SET_VELOCITY, "d")
+    assert nc.write(FUNCTIONS, ORIENTED_STOP, "3d", 90.0, -1.0, 0.0) >= 0x4000
+    assert nc.write(FUNCTIONS, STOP) == 0
+    nc.until(AxisState.STANDSTILL)
+
+
+def test_a_homing_cam_that_the_client_writes_ends_the_search() -> None:
+    home = {"mode": "cam", "switch": -90.0, "velocity": 40.0, "sync_velocity": 10.0, "position": 7.0}
+    with Simulation(Machine.from_dict({**MACHINE, "axis": {"X": {**LINEAR, "home": home}}})) as run:
+        with Paced(run), connected(run.ads.port, 501) as plc:
+            nc = Nc(run, plc)
+            nc.on()
+            assert nc.write(FUNCTIONS, HOME) == 0
+            while nc.axis.set_position > -5.0:
+                nc.value(STATE, SET_POSITION, "d")
+            assert nc.write(CYCLIC, HOMING_CAM, "H", 1) == 0
+            assert (nc.value(CYCLIC, HOMING_CAM, "H"), nc.value(CYCLIC, CONTROL, "I")) == (1, 0b100111)
+            while nc.axis.set_velocity <= 0.0:
+                nc.value(STATE, SET_VELOCITY, "d")
+            assert nc.write(CYCLIC, HOMING_CAM, "H", 0) == 0
+            while not nc.axis.homed:
+                nc.value(STATE, SET_POSITION, "d")
+        trace = run.trace
+    assert_valid(trace)
 
 
 def test_an_error_is_shown_and_reset(nc: Nc) -> None:
@@ -245,7 +325,8 @@ def test_what_cannot_be_read_is_answered_with_its_code(nc: Nc, group: int, offse
         (PARAMETERS, 0x01, "I", NOT_PERMITTED),
         (PARAMETERS, 0x27, "f", INVALID_SIZE),
         (FUNCTIONS, END_POSITION, "d", INVALID_SIZE),
-        (FUNCTIONS, 0x03, "", 0x701),
+        (FUNCTIONS, 0x03, "d", INVALID_SIZE),
+        (FUNCTIONS, 0x12, "", 0x701),
         (CYCLIC, 0x25, "d", INVALID_OFFSET),
     ],
 )

@@ -58,3 +58,13 @@ def test_the_client_comes_back_with_its_notifications_when_the_server_does() -> 
                     wait_for_count(run, value)
                     if value == 2:
                         assert printed.result().split() == ["reconnect"]
+
+
+@pytest.mark.slow
+def test_the_client_restarts_the_run_and_goes_on_with_its_notifications() -> None:
+    clients.node_modules()
+    with Simulation(machine()) as run:
+        declare(run.symbols)
+        with Paced(run):
+            printed = clients.node(SCRIPT, f"127.0.0.1:{run.ads.port}", "restarts")
+        assert printed.split() == ["restarts"]

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from motionlayer.bench.campaign._ads_device import BEGIN, CYCLE_NS, Device
 from motionlayer.connect.ads import Limits
-from motionlayer.connect.ads._notify import FIRST
+from motionlayer.connect.ads._group import FIRST
 from tests.connect.ads_clients import ADD, CYCLIC, DELETE, ON_CHANGE, Talk
 from tests.effort import examples
 
@@ -70,8 +70,7 @@ def test_looks_that_come_late_do_not_shift_the_grid(talk: Talk) -> None:
         for _ in range(7):  # the server looks at every seventh tick only
             device.inside.publish(device.next)
             device.next += 1
-        if device.notifications.due(device.image.tick):
-            device.notifications.look(*device.image.snapshot())
+        device.lookout.look()
         seen += len(talk.samples())
     assert seen == 14
 

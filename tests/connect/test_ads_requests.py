@@ -141,7 +141,7 @@ def test_states_are_asked_for_and_refused(device: Device, talk: Talk) -> None:
     assert talk.result(CONTROL, struct.pack("<HHI", 11, 0, 0), system) == 0x712
     assert device.outbox.controls == [6, 16]
     status = talk.ask(READ, struct.pack("<3I", 0xF0, 0, 16), system).data[8:]
-    assert struct.unpack_from("<3H", status) == (5, 0, 0)
+    assert struct.unpack_from("<3H", status) == (5, 0, 1)
 
 
 def test_a_sum_of_reads_keeps_the_bytes_of_those_that_fail(talk: Talk) -> None:
@@ -323,3 +323,36 @@ def test_a_notification_of_nobody_is_not_deleted(talk: Talk) -> None:
     handle = other.watch("GVL.Count", 4)
     assert talk.result(DELETE, U32.pack(handle)) == 0x714
     assert other.result(DELETE, U32.pack(handle)) == 0
+
+
+def told(device: Device, part: str) -> int:
+    return sum(part in text for text in device.told)
+
+
+def test_what_a_sum_refuses_is_logged_part_by_part() -> None:
+    reader = Talk(Device(access=Access(read_only=frozenset({net_id("127.0.0.1.1.2")}))))
+    handle = reader.handle("GVL.Count")
+    code, answer = reader.read_write(0xF081, 2, 8, struct.pack("<6I", *(0xF005, handle, 4) * 2) + bytes(8))
+    assert (code, struct.unpack("<2I", answer)) == (0, (0x704, 0x704))
+    assert told(reader.device, "127.0.0.1.1.2:30002 at 127.0.0.1 may only read") == 2
+
+
+def test_notifications_that_a_sum_refuses_are_logged() -> None:
+    narrow = Talk(Device(Limits(watched=4)))
+    orders = narrow.order("GVL.Count", 4) * 2
+    code, answer = narrow.read_write(0xF085, 2, 16, orders)
+    assert code == 0
+    assert struct.unpack("<4I", answer)[::2] == (0, 0x717)
+    assert told(narrow.device, "watch size (0x717)") == 1
+
+
+def test_too_many_addresses_and_a_port_that_is_taken_are_logged() -> None:
+    device = Device(Limits(addresses=1))
+    one, peer = Talk(device), device.connect()
+    assert one.result(STATE) == 0
+    one.source = one.source._replace(port=31_000)
+    assert one.result(STATE) == 0x19
+    peer.connection.receive(framed(struct.pack("<H", 851), 0x1000))
+    assert peer.connection.closing
+    assert told(device, "too many addresses on one connection") == 1
+    assert told(device, "AMS port 851 is taken") == 1

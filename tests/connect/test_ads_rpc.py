@@ -122,6 +122,8 @@ def test_the_numbers_of_buffer_modes_are_those_of_the_interface() -> None:
             assert axis.ended(second).done
             assert axis.move(0.0, UNKNOWN_MODE) == (ErrorId.BUFFER_MODE, 0)
             assert axis.shown().command == second == first + 1
+        (told,) = [event.text for event in run.events.ring if event.code == ErrorId.BUFFER_MODE]
+        assert "BufferMode = 7, allowed: 0, 1, 18, 19, 20, 21" in told
         trace = run.trace
     assert trace["X.set_position"].max() == pytest.approx(60.0, abs=1e-4)
     assert_valid(trace)

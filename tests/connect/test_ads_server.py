@@ -4,7 +4,6 @@ import contextlib
 import ipaddress
 import socket
 import struct
-import threading
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -12,73 +11,25 @@ from typing import Any
 import pytest
 
 from motionlayer.bench.campaign._ads import conversation
-from motionlayer.bench.campaign._ads_device import declare
+from motionlayer.bench.campaign._ads_victim import Served
 from motionlayer.command import Ledger
+from motionlayer.connect import ServerFailed
 from motionlayer.connect.ads import (
-    CHANNEL,
     Access,
     Bridge,
-    Contents,
     Hooks,
-    Inside,
     Limits,
-    Outcome,
     Plan,
-    ServerFailed,
-    Status,
     Watcher,
     WatchError,
     net_id,
-    placed,
-    tree_of,
 )
 from motionlayer.connect.ads._frame import Address, Packet, framed
 from motionlayer.event import EventLog
-from motionlayer.iec import SymbolTable
 from motionlayer.runtime import Mailbox
 
 PATIENCE = 10.0
 TARGET, SOURCE = Address(net_id("127.0.0.1.1.1"), 851), Address(net_id("127.0.0.1.1.7"), 30_007)
-
-
-class Served:
-    """A server and the side of a cycle that never stops; no machine."""
-
-    def __init__(self, limits: Limits, access: Access, *, own_process: bool) -> None:
-        self.symbols, self.ledger = SymbolTable(), Ledger()
-        declare(self.symbols)
-        self.told: list[str] = []
-        self.inside = Inside(lambda: placed(self.symbols))
-        self.mailbox = Mailbox(self.ledger, EventLog())
-        self.mailbox.register(CHANNEL, self.inside.apply)
-        plan = Plan("127.0.0.1", 0, net_id("127.0.0.1.1.1"), 1_000_000, access, limits)
-        hooks = Hooks(lambda who, why: self.told.append(f"{who}: {why}"), lambda _write, reply: reply(Outcome(0)))
-        self.bridge = Bridge(plan, self.mailbox, hooks, own_process=own_process)
-        self.over = threading.Event()
-        memory = self.bridge.memory
-        self.inside.begin(memory.publish(self.inside.size), lambda tick: Status(tick * 10_000, 5, 0, 5))
-        self.inside.publish(0)
-        self.bridge.begin(Contents(tree_of(self.inside.places), memory.size))
-        self.thread = threading.Thread(target=self._cycle)
-        self.thread.start()
-
-    def _cycle(self) -> None:
-        while not self.over.wait(0.001):
-            tick = self.ledger.tick
-            self.mailbox.apply(tick)
-            self.inside.publish(tick)
-            self.mailbox.acknowledge(tick)
-            self.ledger.tick = tick + 1
-
-    def close(self) -> None:
-        self.over.set()
-        self.thread.join()
-        self.mailbox.close()
-        self.inside.end()
-        self.bridge.close()
-
-    def connect(self) -> socket.socket:
-        return socket.create_connection(("127.0.0.1", self.bridge.port), PATIENCE)
 
 
 @contextlib.contextmanager
@@ -88,6 +39,10 @@ def served(limits: Limits = Limits(), access: Access = Access(), *, own_process:
         yield made
     finally:
         made.close()
+
+
+def connect(device: Served) -> socket.socket:
+    return socket.create_connection(("127.0.0.1", device.bridge.port), PATIENCE)
 
 
 def request(command: int, data: bytes = b"", number: int = 1) -> bytes:
@@ -116,7 +71,7 @@ def ended(stream: socket.socket) -> bool:
 
 @pytest.mark.parametrize("own_process", [False, True])
 def test_a_server_answers_in_a_thread_and_in_a_process(own_process: bool) -> None:
-    with served(own_process=own_process) as device, device.connect() as stream:
+    with served(own_process=own_process) as device, connect(device) as stream:
         assert state(stream).data == struct.pack("<IHH", 0, 5, 0)
         device.symbols.write("GVL.Count", 1, "test")
         stream.sendall(request(3, struct.pack("<3I", 0xF005, 99, 4) + bytes(4)))
@@ -125,13 +80,13 @@ def test_a_server_answers_in_a_thread_and_in_a_process(own_process: bool) -> Non
 
 def test_connections_are_bounded_and_room_comes_back() -> None:
     with served(Limits(connections=2)) as device:
-        with device.connect() as one, device.connect() as two:
+        with connect(device) as one, connect(device) as two:
             assert state(one).error == state(two).error == 0
-            with device.connect() as three:
+            with connect(device) as three:
                 assert ended(three)
             assert state(one).error == 0
         while True:  # the server needs a moment to notice
-            with device.connect() as again, contextlib.suppress(OSError, ValueError, struct.error):
+            with connect(device) as again, contextlib.suppress(OSError, ValueError, struct.error):
                 again.sendall(request(4))
                 if answer(again).error == 0:
                     break
@@ -140,7 +95,7 @@ def test_connections_are_bounded_and_room_comes_back() -> None:
 
 @pytest.mark.parametrize("said", [b"", b"\0\0", request(4)[:20], b"\0\0\xff\xff\x3f\0" + bytes(50)])
 def test_half_open_connections_are_ended(said: bytes) -> None:
-    with served(Limits(silence=0.2)) as device, device.connect() as good, device.connect() as bad:
+    with served(Limits(silence=0.2)) as device, connect(device) as good, connect(device) as bad:
         assert state(good).error == 0
         bad.sendall(said)
         assert ended(bad)
@@ -148,13 +103,13 @@ def test_half_open_connections_are_ended(said: bytes) -> None:
 
 
 def test_a_frame_without_end_is_refused_at_once() -> None:
-    with served() as device, device.connect() as stream:
+    with served() as device, connect(device) as stream:
         stream.sendall(struct.pack("<HI", 0, 0xFFFF_FFFF))
         assert ended(stream)
 
 
 def test_a_client_that_takes_nothing_is_ended_and_others_are_served() -> None:
-    with served(Limits(unsent=100_000)) as device, device.connect() as slow, device.connect() as good:
+    with served(Limits(unsent=100_000)) as device, connect(device) as slow, connect(device) as good:
         slow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
         upload = request(2, struct.pack("<3I", 0xF00E, 0, 0xFFFF_FFFF))
         with contextlib.suppress(OSError):
@@ -179,7 +134,7 @@ def test_watch_shows_values_as_they_change() -> None:
             "GVL.Inners[2].bOther": False,
             "GVL.Inners[2].rValue": 0.0,
         }
-        with device.connect() as stream:
+        with connect(device) as stream:
             (place,) = [one for one in device.inside.places if one.symbol.name == "GVL.Count"]
             stream.sendall(request(3, struct.pack("<3Ii", 0x4040, place.start, 4, -9)))
             assert answer(stream).data == bytes(4)
@@ -205,7 +160,7 @@ def test_an_address_that_is_none_is_one_clear_error() -> None:
 
 
 def test_a_run_that_ends_answers_what_waits() -> None:
-    with served() as device, device.connect() as stream:
+    with served() as device, connect(device) as stream:
         assert state(stream).error == 0
         device.over.set()
         device.thread.join()
@@ -217,6 +172,19 @@ def test_a_run_that_ends_answers_what_waits() -> None:
         assert answer(stream).data == struct.pack("<I", 0x707)
 
 
+def test_requests_that_take_more_than_one_look_are_all_answered() -> None:
+    with served() as device, connect(device) as stream:
+        assert state(stream).error == 0
+        (place,) = [one for one in device.inside.places if one.symbol.name == "GVL.Count"]
+        parts, values = struct.pack("<3I", 0x4040, place.start, 4) * 10_000, bytes(40_000)
+        data = struct.pack("<4I", 0xF081, 10_000, 40_000, 160_000) + parts + values
+        for number in range(5):
+            stream.sendall(request(9, data, number))
+        for number in range(5):
+            packet = answer(stream)
+            assert (packet.invoke_id, packet.data) == (number, struct.pack("<II", 0, 40_000) + bytes(40_000))
+
+
 def resident(pid: int) -> int:
     """Return the resident memory of a process in bytes."""
     return int(Path(f"/proc/{pid}/statm").read_text(encoding="ascii").split()[1]) * 4096
@@ -225,7 +193,7 @@ def resident(pid: int) -> int:
 def attack(device: Served, cases: range) -> None:
     """Hold conversations that are damaged."""
     for case in cases:
-        with device.connect() as stream, contextlib.suppress(OSError):
+        with connect(device) as stream, contextlib.suppress(OSError):
             stream.sendall(b"".join(conversation(1, case)))
             stream.shutdown(socket.SHUT_WR)
             ended(stream)
@@ -233,7 +201,7 @@ def attack(device: Served, cases: range) -> None:
 
 @pytest.mark.slow
 def test_damaged_conversations_leave_memory_and_others_as_they_are() -> None:
-    with served(Limits(silence=0.5), own_process=True) as device, device.connect() as good:
+    with served(Limits(silence=0.5), own_process=True) as device, connect(device) as good:
         process = device.bridge._process
         assert process is not None
         assert state(good).error == 0

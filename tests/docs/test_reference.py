@@ -75,6 +75,27 @@ def test_every_name_in_the_reference_exists(title: str, known: dict[str, set[str
     assert set(names) - known[title] == set()
 
 
+INSIDE = {
+    "Axis": {
+        *("abandon", "braking", "buffered", "configure", "cycle", "fault", "ledger", "left_alone"),
+        *("power_requested", "refuse", "under_way"),
+    },
+    "Command": {
+        *("abort", "activate", "advice", "awaited", "cancelling", "close", "deadlines", "fail", "finish", "on_end"),
+        *("part", "resume", "since", "value", "waits_for", "warned"),
+    },
+    "Simulation": {"ads_tree", "guest", "ticking"},
+    "Trace": {"from_chunks", "get", "items", "keys", "tail", "values"},  # a mapping has these anyway
+}
+"""Names without an underscore that only other parts of motionlayer use: no user needs them."""
+
+
+@pytest.mark.parametrize("title", list(INSIDE))
+def test_every_public_name_is_in_the_reference(title: str, known: dict[str, set[str]]) -> None:
+    public = {name for name in known[title] if not name.startswith("_")}
+    assert public - set(sections()[title]) == INSIDE[title]
+
+
 def test_every_place_in_the_code_that_move_names_exists() -> None:
     parts = "|".join(path.name for path in Path(motionlayer.__file__).parent.iterdir() if path.is_dir())
     names = re.findall(rf"`((?:{parts})(?:\.\w+)+)`", (ROOT / "docs" / "move.md").read_text())

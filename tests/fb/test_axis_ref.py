@@ -84,6 +84,21 @@ def test_a_status_knows_its_names_and_no_others() -> None:
         _ = Rig().ref.NcToPlc.SetPoss
 
 
+def test_axes_images_and_blocks_show_what_a_debugger_asks_for() -> None:
+    rig = Rig()
+    move = MC_MoveAbsolute(rig.ref)
+    rig.cycle(2, lambda: move(Execute=True, Position=20.0, Velocity=100.0))
+    assert repr(rig.ref) == "<AXIS_REF X>"
+    shown = "Axis=<AXIS_REF X> Execute=True Position=20.0 Velocity=100.0 Busy=True Active=True"
+    assert repr(move) == f"<MC_MoveAbsolute {shown}>"
+    image = repr(rig.ref.NcToPlc)
+    assert "TargetPos=20.0" in image
+    assert "ActTorque" not in image  # 0, as much else
+    assert "TargetPos" in dir(rig.ref.NcToPlc)
+    move.Options.BlendingPosition = 3.0
+    assert "BlendingPosition=3.0" in repr(move)
+
+
 def test_names_of_axes_that_do_not_exist_are_told() -> None:
     with pytest.raises(KeyError, match="no axis 'x'; this machine has X, Y"):
         _ = Rig(2).run.axis_refs["x"]

@@ -10,8 +10,9 @@ from motionlayer import fb
 from motionlayer.bench.campaign._observer import Observer
 from motionlayer.command import Command, ErrorId, MotionError
 from motionlayer.fb import MC_Jog, MC_MoveAbsolute
-from motionlayer.fb._block import NEXT, Built, ExecuteBlock, Phase
+from motionlayer.fb._block import Built, ExecuteBlock
 from motionlayer.fb._inputs import lreal
+from motionlayer.fb._phase import NEXT, Phase
 
 from .rig import Rig
 

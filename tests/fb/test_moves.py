@@ -291,3 +291,34 @@ def test_a_block_of_a_slow_task_is_called_often_enough() -> None:
     rig.cycle(1, lambda: other(Execute=True, Position=200.0, **FAST))
     rig.cycle(10)
     assert (move.CommandAborted, move.Error) == (True, False)
+
+
+@pytest.mark.parametrize(
+    ("number", "mode"),
+    [
+        (18, BufferMode.BLENDING_LOW),
+        (19, BufferMode.BLENDING_PREVIOUS),
+        (20, BufferMode.BLENDING_NEXT),
+        (21, BufferMode.BLENDING_HIGH),
+    ],
+)
+def test_numbers_of_buffer_modes_are_also_those_of_the_interface(number: int, mode: BufferMode) -> None:
+    """The same two moves with either number take the same way."""
+    ways = []
+    for given in (number, mode):
+        rig = Rig()
+        begun(rig, MC_MoveAbsolute(rig.ref), Position=50.0, Velocity=200.0)
+        second = begun(rig, MC_MoveAbsolute(rig.ref), Position=100.0, Velocity=80.0, BufferMode=given)
+        rig.cycle(2000)
+        assert second.Done
+        rig.check()
+        ways.append(rig.run.trace.hash)
+    assert ways[0] == ways[1]
+
+
+@pytest.mark.parametrize("number", [-1, 6, 17, 22])
+def test_a_number_that_is_no_buffer_mode_is_refused(number: int) -> None:
+    rig = Rig()
+    move = begun(rig, MC_MoveAbsolute(rig.ref), Position=50.0, BufferMode=number, **FAST)
+    assert (move.Error, move.ErrorID) == (True, ErrorId.BUFFER_MODE)
+    rig.check()

@@ -11,8 +11,10 @@ from motionlayer.command import ErrorId
 from motionlayer.event import Kind
 from motionlayer.fb import (
     PARAMETERS,
+    E_EncoderReferenceMode,
     E_ReadMode,
     MC_AxisParameter,
+    MC_Home,
     MC_MoveAbsolute,
     MC_ReadBoolParameter,
     MC_ReadParameter,
@@ -26,8 +28,10 @@ from .rig import Rig
 
 P = MC_AxisParameter
 NUMBERS = [name for name, entry in PARAMETERS.items() if entry.kind is float]
-SWITCHES = [name for name, entry in PARAMETERS.items() if entry.kind is bool]
+FLAGS = [name for name, entry in PARAMETERS.items() if entry.kind is bool]
+SWITCHES = [name for name in FLAGS if PARAMETERS[name].write is not None]
 WRITABLE = [name for name in NUMBERS if PARAMETERS[name].write is not None]
+POSITIONS = [name for name in WRITABLE if "Limit" in name.name or name is P.AxisEncoderHomingCalibValue]
 MONITOR = {
     "lag": 5.0, "lag_time": 0.02, "range_window": 5.0, "target_window": 2.0, "target_time": 0.002,
     "target_timeout": 1.0, "motion_window": 1e-6, "motion_time": 0.2,
@@ -35,14 +39,14 @@ MONITOR = {
 
 
 def read(rig: Rig, number: int) -> Any:
-    block: Any = (MC_ReadBoolParameter if number in SWITCHES else MC_ReadParameter)(rig.ref)
+    block: Any = (MC_ReadBoolParameter if number in FLAGS else MC_ReadParameter)(rig.ref)
     rig.cycle(1, lambda: block(Enable=True, ParameterNumber=number))
     assert block.Valid, hex(block.ErrorID)
     return block.Value
 
 
 def write(rig: Rig, number: int, value: Any) -> int:
-    block: Any = (MC_WriteBoolParameter if number in SWITCHES else MC_WriteParameter)(rig.ref)
+    block: Any = (MC_WriteBoolParameter if number in FLAGS else MC_WriteParameter)(rig.ref)
     observer = Observer()
     rig.cycle(2, lambda: block(Execute=True, ParameterNumber=number, Value=value), lambda: observer.look(block))
     assert block.Done != block.Error
@@ -86,15 +90,53 @@ def test_a_number_inside_its_range_holds_and_bad_ones_change_nothing(number: int
         new = before * 2.0
     assert write(rig, number, new) == 0
     assert read(rig, number) == new
-    for bad in (math.nan, math.inf, -math.inf, *((-1.0,) if "Limit" not in P(number).name else ())):
+    for bad in (math.nan, math.inf, -math.inf, *((-1.0,) if number not in POSITIONS else ())):
         assert write(rig, number, bad) == ErrorId.PARAMETER
     assert read(rig, number) == new
     rig.check()
 
 
-@pytest.mark.parametrize("number", [P.ActualVelocity, P.AxisCycleTime, 0, 77, 999, -1, 10**12])
+@pytest.mark.parametrize(
+    "number", [P.ActualVelocity, P.AxisCycleTime, P.AxisEncoderReferenceMode, 0, 77, 999, -1, 10**12]
+)
 def test_what_cannot_be_written_is_refused(number: int) -> None:
     assert write(Rig(), number, 1.0) == 0x4B05
+
+
+HOMING = (
+    P.AxisEncoderHomingInvDirCamSearch,
+    P.AxisEncoderHomingInvDirSyncSearch,
+    P.AxisEncoderHomingCalibValue,
+    P.AxisEncoderReferenceMode,
+)
+
+
+@pytest.mark.parametrize(
+    ("home", "shown"),
+    [
+        (
+            {"mode": "direct", "direction": "positive", "position": 7.5},
+            (False, True, 7.5, E_EncoderReferenceMode.DEFAULT),
+        ),
+        (
+            {"mode": "cam", "direction": "negative", "switch": 50.0, "position": -3.0},
+            (True, False, -3.0, E_EncoderReferenceMode.PLCCAM),
+        ),
+    ],
+)
+def test_the_homing_of_the_machine_file_is_read_by_number(home: dict[str, Any], shown: tuple[Any, ...]) -> None:
+    rig = Rig(home=home)
+    assert tuple(read(rig, number) for number in HOMING) == shown
+    assert write(rig, P.AxisEncoderHomingInvDirCamSearch, True) == 0x4B05
+
+
+def test_a_reference_position_that_is_written_is_that_of_the_next_homing() -> None:
+    rig = Rig(home={"mode": "direct", "position": 7.5})
+    assert write(rig, P.AxisEncoderHomingCalibValue, -12.25) == 0
+    home = MC_Home(rig.ref)
+    rig.until(lambda: home.Done, lambda: home(Execute=True))
+    assert rig.ref.axis.set_position == -12.25
+    rig.check()
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,8 @@ from motionlayer import AxisState
 from motionlayer.command import ErrorId
 from motionlayer.drive import Fault
 from motionlayer.event import Kind
-from motionlayer.fb import MC_MoveAbsolute, MC_MoveVelocity, MC_Power, MC_Reset, MC_SetOverride
-from motionlayer.nc import BufferMode
+from motionlayer.fb import MC_MoveAbsolute, MC_MoveVelocity, MC_Power, MC_Reset, MC_SetOverride, MC_Stop
+from motionlayer.nc import BufferMode, Direction
 from tests.nc.servos import SERVO
 
 from .rig import Rig
@@ -57,6 +57,41 @@ def test_the_end_of_enable_waits_for_the_job_where_it_shall() -> None:
     rig.until(lambda: move.Done, power, move)
     rig.cycle(3, power)
     assert rig.ref.axis.state is AxisState.DISABLED
+    rig.check()
+
+
+def test_power_that_is_asked_for_while_the_axis_brakes_comes_back_without_an_error() -> None:
+    rig = Rig()
+    power, move, errors = rig.power[0], MC_MoveVelocity(rig.ref), []
+    rig.cycle(100, lambda: move(Execute=True, **FAST))
+    rig.cycle(2, lambda: power(Enable=False), move)
+    assert (rig.ref.axis.state, move.CommandAborted) == (AxisState.STOPPING, True)
+
+    def again() -> None:
+        power(Enable=True)
+        errors.append(power.Error)
+
+    rig.cycle(2, again)
+    assert (rig.ref.axis.state, power.Status) == (AxisState.STOPPING, True)  # it brakes to the end, with power
+    rig.until(lambda: rig.ref.axis.state is not AxisState.STOPPING, again)
+    rig.cycle(5, again)
+    assert (rig.ref.axis.state, power.Status, any(errors)) == (AxisState.STANDSTILL, True, False)
+    rig.check()
+
+
+def test_a_direction_released_during_a_stop_is_free_after_it() -> None:
+    rig = Rig(power=False)
+    power, stop, move = MC_Power(rig.ref), MC_Stop(rig.ref), MC_MoveVelocity(rig.ref)
+    rig.cycle(3, lambda: power(Enable=True, Enable_Positive=True))
+    rig.cycle(100, power, lambda: move(Execute=True, **FAST))
+    rig.cycle(2, power, lambda: move(Execute=False), lambda: stop(Execute=True))
+    rig.until(lambda: stop.Done, lambda: power(Enable_Negative=True), stop)
+    assert (power.Error, rig.ref.axis.state) == (False, AxisState.STOPPING)
+    rig.cycle(3, lambda: stop(Execute=False), power)
+    rig.cycle(1, lambda: move(Execute=True, Direction=Direction.NEGATIVE), power)
+    assert move.Busy
+    rig.cycle(20, power, move)
+    assert rig.ref.axis.set_velocity < 0.0
     rig.check()
 
 

@@ -6,7 +6,8 @@ from motionlayer.bench.campaign._blocks import live
 from motionlayer.verify import assert_valid
 
 
-@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2))])
+@pytest.mark.slow  # the short form of the campaign does the same in the quick suite
+@pytest.mark.parametrize("seed", range(3))
 def test_random_blocks_keep_the_rules(seed: int) -> None:
     assert_valid(live(seed, 0, 3400).trace)
 

@@ -211,6 +211,15 @@ def test_bad_writes_tell_who_what_and_limit(attribute: str, value: object, error
         assert made == Everything()
 
 
+def test_a_member_that_is_not_there_cannot_be_read_either() -> None:
+    for made in (Everything(), Everything.view(bytearray(bytes(Everything())))):
+        with pytest.raises(
+            AttributeError, match=r"Everything \(ST_EVERYTHING\) has no member numbr; did you mean number"
+        ):
+            made.numbr  # type: ignore[attr-defined]  # noqa: B018
+        assert not hasattr(made, "xyz")
+
+
 def test_members_are_not_deleted() -> None:
     with pytest.raises(AttributeError, match=r"MoveData\.position: a member cannot be deleted"):
         del MoveData().position

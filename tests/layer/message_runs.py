@@ -5,13 +5,21 @@ from typing import Any
 
 from motionlayer import Machine, Simulation
 from motionlayer.event import Device, Event, Kind, Level, Subdevice, device_of
+from motionlayer.runtime import PATIENCE
 from tests.machines import LINEAR
 
 PREFIX = "GVL_MSG_AXIS."
 AXIS = device_of(Device.Axis, 1)
 
 
-def opened(folder: Path | None = None, *, axes: int = 1, layer: dict[str, Any] | None = None, **log: Any) -> Simulation:
+def opened(
+    folder: Path | None = None,
+    *,
+    axes: int = 1,
+    layer: dict[str, Any] | None = None,
+    patience: float = PATIENCE,
+    **log: Any,
+) -> Simulation:
     """Return a run with axes X, Y, Z, and with message files if there is a folder."""
     described: dict[str, Any] = {
         "format": 1,
@@ -21,7 +29,7 @@ def opened(folder: Path | None = None, *, axes: int = 1, layer: dict[str, Any] |
     }
     if folder is not None:
         described["log"] = {"folder": str(folder), "start": "2025-10-24T13:00:00"} | log
-    return Simulation(Machine.from_dict(described))
+    return Simulation(Machine.from_dict(described), patience=patience)
 
 
 def started(folder: Path | None = None, **changes: Any) -> Simulation:

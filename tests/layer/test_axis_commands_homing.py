@@ -117,3 +117,28 @@ def test_the_switch_of_a_drive_is_shown_as_calibration_cam_unless_a_client_write
     rig.do(C.MOVE_POS)
     assert not one.limit_switches.calibrate
     rig.check()
+
+
+def homed_at(rig: Rig) -> float:
+    """Home by the layer, and return where the axis then is."""
+    assert rig.do(C.HOME)[-1] == P.DONE
+    rig.check()
+    return place(rig)
+
+
+def test_the_reference_has_the_position_of_the_machine_file_until_a_client_gives_another() -> None:
+    by_method, by_layer, by_client = (Rig(home=SWITCH | {"position": -7.5}).ready() for _ in range(3))
+    command = by_method.run.axes["X"].home()
+    by_method.until(lambda: command.done)
+    by_method.check()
+    assert homed_at(by_layer) == pytest.approx(place(by_method), abs=1e-9)
+    by_client.x.home.parameters.position = 2.5
+    assert homed_at(by_client) == pytest.approx(place(by_method) + 10.0, abs=1e-9)
+
+
+def test_a_reset_gives_the_reference_its_position_back() -> None:
+    rig = Rig(home=SWITCH | {"position": -7.5})
+    rig.x.home.parameters.position = 2.5
+    rig.cycle(3)
+    rig.run.reset()
+    assert rig.x.home.parameters.position == -7.5

@@ -100,6 +100,49 @@ def test_d16_what_is_not_finite_becomes_0_in_the_data_with_one_warning(name: str
     assert len([event for event in rig.messages if event.level is Level.WARNING]) == 1
 
 
+@pytest.mark.parametrize("command", [C.MOVE_POS, C.SEND_TO_POS, C.MOVE_BUFFER])
+@pytest.mark.parametrize("bad", [math.nan, math.inf])
+def test_d16_a_position_that_is_no_number_is_no_target(command: AxisCommand, bad: float) -> None:
+    rig = Rig().ready()
+    aim(rig, 50.0)
+    rig.do(C.MOVE_POS)
+    rig.do(C.NULL)
+    aim(rig, bad)
+    rig.cycle(2)
+    aim(rig, 0.0, 100.0)  # the position still is what the layer has written
+    rig.drop(command)
+    rig.until(lambda: rig.x.state.split().progress is P.ERROR)
+    assert rig.x.info.error_id == ErrorId.TARGET_NOT_FINITE
+    assert place(rig) == 50.0
+    rig.do(C.NULL)
+    rig.drop(command)  # 0.0 was seen, and is asked for again
+    rig.until(lambda: place(rig) == 0.0)
+    rig.check()
+
+
+def test_d16_a_buffered_job_that_gets_no_number_ends_in_error_and_its_move_goes_on() -> None:
+    rig = Rig().ready()
+    aim(rig, 100.0)
+    rig.drop(C.MOVE_BUFFER)
+    rig.cycle(50)
+    rig.x.data.position = math.nan
+    rig.until(lambda: rig.x.state.code == C.MOVE_BUFFER + P.ERROR)
+    assert rig.x.info.error_id == ErrorId.TARGET_NOT_FINITE
+    rig.until(lambda: place(rig) == 100.0)
+    rig.cycle(50)
+    assert place(rig) == 100.0
+    rig.check()
+
+
+def test_d16_a_position_that_is_written_again_is_a_target() -> None:
+    rig = Rig().ready()
+    aim(rig, math.nan)
+    rig.cycle(2)
+    aim(rig, 30.0)
+    assert rig.do(C.MOVE_POS) == SIMPLE
+    rig.check()
+
+
 def test_d16_nor_does_a_distance_or_a_homing_or_a_parameter_take_what_is_not_finite() -> None:
     rig = Rig().ready()
     rig.x.options.distance = math.nan
@@ -110,4 +153,19 @@ def test_d16_nor_does_a_distance_or_a_homing_or_a_parameter_take_what_is_not_fin
     assert rig.x.info.error_id == ErrorId.TARGET_NOT_FINITE
     rig.x.nc_parameter_in.number, rig.x.nc_parameter_in.value = 1004, math.nan
     assert rig.do(C.PARAMETER_WRITE) == FAILED
+    rig.check()
+
+
+@pytest.mark.parametrize("command", [C.MOVE_POS, C.MOVE_VELO, C.SEND_TO_POS, C.MOVE_BUFFER, C.MOVE_BUFFER_VELO])
+def test_a_motion_that_an_override_of_0_holds_is_told_once(command: AxisCommand) -> None:
+    rig = Rig().ready()
+    aim(rig, 20.0, override=0.0)
+    rig.drop(command)
+    rig.cycle(300)
+    told = [one.text for one in rig.messages if one.level is Level.WARNING]
+    assert told == ["held by rOverride = 0 %; it begins when rOverride is raised"]
+    rig.x.data.override = 100.0
+    rig.cycle(300)
+    assert place(rig) > 0.0
+    assert len([one for one in rig.messages if one.level is Level.WARNING]) == 1
     rig.check()

@@ -71,6 +71,8 @@ def test_objects_are_found_by_index_and_by_name() -> None:
     for bad in (0, 4, -1):
         with pytest.raises(IndexError, match="indices go from 1 to 3"):
             axis[bad]
+    with pytest.raises(KeyError, match="did you mean 'X'"):
+        axis["x"]
     with pytest.raises(KeyError, match="did you mean 'Y'"):
         axis["Yy"]
 

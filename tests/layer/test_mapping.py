@@ -7,12 +7,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from motionlayer.event import Level
+from motionlayer.fb import E_EncoderReferenceMode
 from motionlayer.iec import InputArray
 from motionlayer.layer._inputs import overwrite
 from motionlayer.layer._mapping import MapOptions
 from motionlayer.layer._mapping_table import INPUTS, OUTPUTS
-from motionlayer.layer.types import AxisCommand, AxisCtrl, MoveData, Progress
+from motionlayer.layer.types import AxisCommand, AxisCtrl, Homing, LimitSwitches, MoveData, Progress
 from tests.layer.mapped import Mapped
+from tests.layer.rig import Rig
 
 ALL = MapOptions("M", "axis", selector=True)
 A, B = MapOptions("A", "axis", (1, 3)), MapOptions("B", "axis", (2,))
@@ -252,6 +254,34 @@ def test_a_run_that_goes_back_takes_the_image_again_and_leaves_the_bus_alone() -
     assert bus == ctrl(4, 5, 6)
     mapped.run.step(1)
     assert mapped.commands() == [4, 5, 6]
+
+
+def test_d51_limit_switches_can_be_mapped() -> None:
+    """By images alone, an axis is homed at a switch that the controller reads."""
+    home = {"mode": "direct", "velocity": 40.0, "sync_velocity": 5.0, "direction": "negative"}
+    rig = Rig(options={"map": {"all": {"group": "axis", "switches": True}}}, home=home)
+    areas = rig.run.areas
+    homing = Homing()
+    homing.parameters.home_on_limit_min = True
+    homing.parameters.options.reference_mode = E_EncoderReferenceMode.PLCCAM
+    areas["MAPPING_AXIS_in.AxisHoming"].post(bytes(homing))
+    for command in (AxisCommand.ENABLE, AxisCommand.HOME):
+        areas["MAPPING_AXIS_in.AxisCtrl"].post(bytes(AxisCtrl(cmd=command)))
+        while rig.x.state.code != command + Progress.DONE:
+            minimum = rig.run.axes["X"].actual_position < -20.0
+            areas["MAPPING_AXIS_in.AxisLimitSwitches"].post(bytes(LimitSwitches(minimum=minimum)))
+            rig.cycle()
+            assert rig.x.state.split().progress != Progress.ERROR
+    assert rig.x.info.referenced
+    with pytest.raises(PermissionError, match=r"belongs to the image MAPPING_AXIS_in\.AxisLimitSwitches"):
+        rig.x.limit_switches.minimum = False
+    rig.check()
+
+
+def test_limit_switches_are_mapped_only_where_that_is_asked_for() -> None:
+    rig = Rig(options={"map": {"all": {"group": "axis"}}})
+    assert "MAPPING_AXIS_in.AxisLimitSwitches" not in rig.run.areas
+    rig.x.limit_switches.minimum = True
 
 
 @given(st.lists(st.tuples(st.sampled_from("AB"), st.integers(0, 2), st.integers(0, 0xFFFF)), max_size=20))

@@ -108,11 +108,30 @@ def test_the_file_is_complete_after_a_burst_that_no_list_can_hold(tmp_path: Path
     assert run.log.missing == 0
 
 
-def test_what_has_no_list_here_is_in_none() -> None:
-    run = started(layer={"test": True})
-    say(run, device=device_of(Device.Process, 1))
-    run.step()
-    assert (read(run, "MessageMotionIndex"), read(run, "MessageMetricIndex")) == (0, 0)
+OTHERS = {
+    device_of(Device.Process, 1): "Application",
+    device_of(Device.Application, 2): "Application",
+    int(Device.Device_XmlData): "Application",
+    device_of(Device.XtsStation, 1): "Transport",
+    int(Device.Device_MoverSelector): "Transport",
+    device_of(Device.MetricsXts, 1): "Metrics",
+    device_of(Device.DataProduct, 1): "Product",
+}
+
+
+@pytest.mark.parametrize("device", OTHERS)
+def test_what_is_not_of_this_project_fills_a_list_that_nobody_writes(device: int, tmp_path: Path) -> None:
+    """Motion-layer 8.2; errors of the mover selector are not counted there."""
+    with opened(tmp_path, layer={"test": True, "max_other_message": 3}) as run:
+        for number in range(5):
+            say(run, f"text {number}", Level.ERROR, device=device)
+        run.step(5100)
+        name = OTHERS[device]
+        found = {key: run.symbols.read(f"GVL_MSG.Message{name}{key}") for key in ("Index", "Error", "Lost")}
+        assert found == {"Index": 3, "Error": 0 if device == Device.Device_MoverSelector else 5, "Lost": 2}
+        assert run.symbols.read(f"GVL_MSG.{name}Messages[3].sText").endswith("text 2")
+        assert run.symbols.read(f"GVL_MSG.{name}MessageState.State") == 0
+    assert not [columns for columns in lines(tmp_path) if "text" in columns[5]]
 
 
 def test_a_text_is_cut_and_keeps_to_its_characters() -> None:

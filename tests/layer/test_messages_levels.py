@@ -99,6 +99,27 @@ def test_a_level_that_there_is_not_is_told_once(asked: int, holds: Level) -> Non
     assert run.log.levels.level is holds
 
 
+@pytest.mark.parametrize(
+    ("array", "device"),
+    [
+        ("Station", device_of(Device.XtsStation, 1)),
+        ("Mover", device_of(Device.Mover, 1)),
+        ("Process", device_of(Device.Process, 1)),
+    ],
+)
+def test_objects_of_the_sister_project_have_levels_too(array: str, device: int) -> None:
+    run = started()
+    name = f"GVL_MSG.MessageLevel{array}[1]"
+    assert run.symbols.read(name) == 0
+    of = "Application" if array == "Process" else "Transport"
+    for level, index in ((Level.WARNING, 0), (Level.VERBOSE, 1)):
+        run.symbols.write(name, level, by="client")
+        run.step()
+        say(run, level=Level.VERBOSE, device=device)
+        run.step()
+        assert run.symbols.read(f"GVL_MSG.Message{of}Index") == index
+
+
 def test_levels_go_back_with_the_run() -> None:
     run = started()
     before = run.snapshot()

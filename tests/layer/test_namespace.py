@@ -10,98 +10,20 @@ from hypothesis import strategies as st
 from motionlayer import Machine, Simulation
 from motionlayer.command import ErrorId
 from motionlayer.event import Device, Level, Subdevice
-from motionlayer.iec import LREAL, UDINT, UINT, USINT, Enumeration, Field, Struct
+from motionlayer.iec import UINT, USINT, Enumeration, Field, Struct
 from motionlayer.layer import (
     JobTable,
     LayerError,
     Namespace,
-    NamespaceJob,
-    NamespaceObject,
     Progress,
     Schedule,
-    Transition,
-    a_call_later,
     after,
-    always,
-    nothing,
 )
 from tests.effort import examples
 from tests.layer.message_runs import opened
+from tests.layer.tanks import E_TANK_CTRL, JOBS, TANK, Command, TankCtrl, TankState, codes, tank, told
 
 P = Progress
-
-
-class Command(enum.IntEnum):
-    NULL = 0
-    FILL = 30
-    EMPTY = 31
-    FAIL = 32
-    BROKEN = 33
-    UNPREPARED = 39
-    LATER = 40
-
-
-E_TANK_CTRL = Enumeration("E_TANK_CTRL", UINT, Command, prefix="TANK_")
-
-
-class TankCtrl(Struct, iec="ST_TANK_CTRL", pack=2):
-    cmd = Field("eCmd", E_TANK_CTRL)
-    level = Field("rLevel", LREAL)
-
-
-class TankState(Struct, iec="ST_TANK_STATE", pack=2):
-    state = Field("eState", UINT)
-    error_id = Field("nErrorId", UDINT)
-
-
-Tank = NamespaceJob[TankCtrl, TankState]
-
-
-def is_full(job: Tank) -> bool:
-    return job.ctrl.level >= 1.0
-
-
-def overflow(job: Tank) -> None:
-    job.error = 7
-
-
-def divide(job: Tank) -> bool:
-    return 1.0 / job.ctrl.level > 0.0
-
-
-JOBS: dict[int, JobTable[Any]] = {
-    Command.FILL: JobTable[Tank](
-        "FILL",
-        [
-            Transition(P.INIT, always, nothing, P.BUSY),
-            Transition(P.BUSY, is_full, nothing, P.CHECK),
-            Transition(P.CHECK, after(0.005), nothing, P.DONE),
-        ],
-    ),
-    Command.EMPTY: JobTable[Tank]("EMPTY", [Transition(P.INIT, a_call_later, nothing, P.DONE)]),
-    Command.BROKEN: JobTable[Tank]("BROKEN", [Transition(P.INIT, divide, nothing, P.DONE)]),
-    Command.UNPREPARED: JobTable[Tank]("UNPREPARED", [Transition(P.INIT, always, nothing, P.DONE)], prepare=divide),
-    Command.FAIL: JobTable[Tank]("FAIL", [Transition(P.INIT, always, overflow, P.ERROR)]),
-}
-TANK = Namespace("GVL_TANK", TankCtrl, TankState, JOBS, source="Brewery")
-
-
-def tank(**changes: Any) -> tuple[Simulation, NamespaceObject[TankCtrl, TankState]]:
-    run = opened(layer={"test": True})
-    return run, run.namespaces.add(TANK, **changes)
-
-
-def codes(run: Simulation, one: NamespaceObject[TankCtrl, TankState], ticks: int) -> list[int]:
-    """Return the state at the end of each of the next cycles."""
-    found = []
-    for _ in range(ticks):
-        run.step()
-        found.append(one.state.code)
-    return found
-
-
-def told(run: Simulation) -> list[tuple[Level, int, str]]:
-    return [(event.level, event.code, event.text) for event in run.events.last() if event.source == "Brewery"]
 
 
 def test_the_answer_comes_in_the_same_cycle_and_each_progress_a_cycle_after_its_call() -> None:
@@ -132,7 +54,7 @@ def test_an_exception_ends_the_job_and_nothing_else() -> None:
     assert one.state.view.error_id == ErrorId.PROGRAM_FAILED
     *_, failed, shown = told(run)
     assert failed[:2] == (Level.ERROR, ErrorId.PROGRAM_FAILED)
-    assert failed[2].startswith("TANK_BROKEN: ZeroDivisionError: float division by zero (test_namespace.py:")
+    assert failed[2].startswith("TANK_BROKEN: ZeroDivisionError: float division by zero (tanks.py:")
     assert failed[2].endswith(" in divide)")
     assert shown == (Level.ERROR, ErrorId.PROGRAM_FAILED, "TANK_BROKEN: PROGRESS_ERROR")
     one.ctrl.level, one.ctrl.cmd = 1.0, Command.NULL

@@ -2,6 +2,8 @@
 
 from typing import Any
 
+import pytest
+
 from motionlayer.drive import Fault
 from motionlayer.event import Level, Subdevice
 from motionlayer.layer import AxisCommand, Progress
@@ -35,6 +37,25 @@ def test_the_layer_writes_over_what_a_client_has_dropped() -> None:
     rig.until(lambda: rig.layer.ready)
     assert rig.x.state.code == 10001
     assert not rig.x.info.enabled
+    rig.check()
+
+
+@pytest.mark.parametrize("ticks", range(9))
+def test_a_command_that_the_start_up_takes_away_is_told_once_with_the_way_out(ticks: int) -> None:
+    rig = Rig(up=False)
+    rig.cycle(ticks)
+    rig.x.ctrl.cmd = C.ENABLE
+    rig.until(lambda: rig.layer.ready)
+    rig.until(lambda: rig.x.state.split().progress in (P.DONE, P.ERROR))
+    lost = [text for text in rig.texts(Subdevice.MainInit) if "AXIS_ENABLE" in text]
+    if rig.x.ctrl.cmd == C.ENABLE:  # the start-up had done with the axis
+        assert rig.x.state.code == C.ENABLE + P.DONE
+        assert not lost
+    else:
+        assert rig.x.state.code == C.INIT + P.DONE
+        (text,) = lost
+        assert text.startswith("GVL_AXIS.Ctrl[1]: AXIS_ENABLE comes before the start-up has ended, and is overwritten")
+        assert text.endswith("wait for MAIN_AXIS.eInit = 10000 before the first command")
     rig.check()
 
 

@@ -78,6 +78,30 @@ GVL_MSG_AXIS.LOG_FILE               STRING(80)                      81 layer
 GVL_MSG_AXIS.LOG_FILE_METRIC        STRING(80)                      81 layer
 GVL_MSG_AXIS.sLocalTime             STRING(80)                      81 layer
 GVL_MSG_AXIS.dtLocalTime            DT                               4 layer
+GVL_MSG.ApplicationMessages         ST_Message                  368000 layer
+GVL_MSG.ApplicationMessageCtrl      ST_MESSAGE_CTRL                  2 layer
+GVL_MSG.ApplicationMessageState     ST_MESSAGE_STATE                 2 layer
+GVL_MSG.MessageApplicationIndex     UINT                             2 layer
+GVL_MSG.MessageApplicationError     UINT                             2 layer
+GVL_MSG.TransportMessages           ST_Message                  368000 layer
+GVL_MSG.TransportMessageCtrl        ST_MESSAGE_CTRL                  2 layer
+GVL_MSG.TransportMessageState       ST_MESSAGE_STATE                 2 layer
+GVL_MSG.MessageTransportIndex       UINT                             2 layer
+GVL_MSG.MessageTransportError       UINT                             2 layer
+GVL_MSG.MetricsMessages             ST_Message                  368000 layer
+GVL_MSG.MetricsMessageCtrl          ST_MESSAGE_CTRL                  2 layer
+GVL_MSG.MetricsMessageState         ST_MESSAGE_STATE                 2 layer
+GVL_MSG.MessageMetricsIndex         UINT                             2 layer
+GVL_MSG.MessageMetricsError         UINT                             2 layer
+GVL_MSG.ProductMessages             ST_Message                  368000 layer
+GVL_MSG.ProductMessageCtrl          ST_MESSAGE_CTRL                  2 layer
+GVL_MSG.ProductMessageState         ST_MESSAGE_STATE                 2 layer
+GVL_MSG.MessageProductIndex         UINT                             2 layer
+GVL_MSG.MessageProductError         UINT                             2 layer
+GVL_MSG.MessageLevelStation         E_MessageType                    4 client
+GVL_MSG.MessageLevelMover           E_MessageType                    4 client
+GVL_MSG.MessageLevelProcess         E_MessageType                    4 client
+GVL_MSG.MAX_MESSAGE                 UINT                             2 layer
 """
 ROWS = [row.split() for row in TABLE.strip().splitlines()]
 
@@ -110,7 +134,7 @@ CONSTANTS = {
 
 @pytest.fixture(scope="module")
 def shared() -> Globals:
-    return Globals(Sizes(6), Features())
+    return Globals(Sizes(6, max_other_message=2000), Features())
 
 
 @pytest.mark.parametrize(("name", "of", "total", "writer"), ROWS, ids=[row[0] for row in ROWS])
@@ -135,6 +159,10 @@ BESIDE = {
     "GVL_MSG_AXIS.MAX_MESSAGE",
     "GVL_MSG_AXIS.MessageMotionLost",
     "GVL_MSG_AXIS.MessageMetricLost",
+    "GVL_MSG.MessageApplicationLost",
+    "GVL_MSG.MessageTransportLost",
+    "GVL_MSG.MessageMetricsLost",
+    "GVL_MSG.MessageProductLost",
 }
 """Constants of motion-layer 1.5 that are in other lists, and what this runtime adds."""
 
@@ -159,9 +187,12 @@ def test_start_values_are_those_declared(shared: Globals) -> None:
         ("GVL_NCI.ChannelCtrl[1].eCmd", "GVL_NCI.stChannelCtrl[1].eCmd"),
         ("GVL_NCI.ChannelState[1].eState", "GVL_NCI.stChannelState[1].eState"),
         ("MAIN_AXIS.eInit", "MAIN.eInit"),
+        ("GVL_MSG_AXIS.MessageLevel", "GVL_MSG.MessageLevel"),
+        ("GVL_MSG_AXIS.sLocalTime", "GVL_MSG.sLocalTime"),
+        ("GVL_MSG_AXIS.dtLocalTime", "GVL_MSG.dtLocalTime"),
     ],
 )
-def test_names_of_the_slides_lead_to_the_same_memory(shared: Globals, name: str, alias: str) -> None:
+def test_other_names_lead_to_the_same_memory(shared: Globals, name: str, alias: str) -> None:
     assert shared.symbols.find(alias).symbol is shared.symbols.find(name).symbol
 
 

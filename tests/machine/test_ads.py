@@ -104,7 +104,7 @@ def test_a_restart_begins_anew_and_clients_see_that() -> None:
             plc.write_by_name("", 55.0, PLCTYPE_LREAL, handle=handle)
             plc.write_control(RESET, 0, 0, PLCTYPE_UINT)
             assert plc.read_by_name("", PLCTYPE_LREAL, handle=handle) == 0.0
-            assert plc.read(0xF008, 0, pyads.PLCTYPE_USINT) == version
+            assert plc.read(0xF008, 0, pyads.PLCTYPE_USINT) == version + 1
         assert restarts(run.ads.port) == before + 1
 
 
@@ -156,7 +156,7 @@ def test_an_address_that_is_taken_is_one_clear_error() -> None:
 
 def test_a_run_without_a_server_says_so() -> None:
     with Simulation(machine(), ads=False) as run:
-        assert not run.ads.serves
+        assert not run.serves_ads
         with pytest.raises(ValueError, match=r"no ADS server: add \[ads\]"):
             _ = run.ads.port
 

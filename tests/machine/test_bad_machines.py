@@ -45,6 +45,8 @@ BAD = [
         "axis.X.start_position",
         "= inf: must be a finite number (mm)",
     ),
+    (HEAD + AXIS + "start_position = 1e61\n", 7, "axis.X.start_position", "= 1e+61: must be from -1e+60 to 1e+60 (mm)"),
+    (HEAD + AXIS + "jerk = 1e-61\n", 7, "axis.X.jerk", "= 1e-61: must be from 1e-60 to 1e+60 (mm/s³)"),
     (HEAD + AXIS + "start_position = true\n", 7, "axis.X.start_position", "= true: must be a finite number"),
     (HEAD + "base_cycle_ns = 5\n" + AXIS, 3, "base_cycle_ns", "must be from 50_000 to 100_000_000 (ns)"),
     (HEAD + "base_cycle_ns = 1e6\n" + AXIS, 3, "base_cycle_ns", "must be a whole number from 50_000"),
@@ -116,6 +118,7 @@ BAD = [
     (HEAD + AXIS + FAULT.replace("blocked", "encoder_jump"), 10, "fault[0].value", "missing"),
     # keys and tables
     (HEAD + AXIS + "max_velocty = 1\n", 7, "axis.X.max_velocty", "unknown key; did you mean max_velocity?"),
+    (HEAD + AXIS + SERVO + "max_torque = 1\n", 10, "axis.X.drive.max_torque", "did you mean max_acceleration?"),
     (HEAD + AXIS + "qqqq = 1\n", 7, "axis.X.qqqq", "max_velocity, max_acceleration"),
     (
         HEAD + AXIS.replace("max_jerk", "max_jrek"),
@@ -209,6 +212,8 @@ BAD = [
     (HEAD + AXIS + "max_jerk = [\n1,\n]\n", 7, "", "already defined"),
     (HEAD + "[axis.X\n", 3, "", "not valid TOML: expected ']'"),
     (HEAD + "a b\n", 3, "", "not valid TOML"),
+    (HEAD + AXIS.replace("= 10.0", "= 10,5", 1), 4, "", "numbers have a decimal point, and no separator but _"),
+    (HEAD + "a = -1,5 # mm\n", 3, "", "numbers have a decimal point, and no separator but _"),
     (HEAD + "a = [\n1,\n2 3]\n", 5, "", "not valid TOML"),
     (HEAD + "a = [1,\n2\n\n", 3, "", "not valid TOML: unclosed array"),
     (HEAD + "a = " + "9" * 5000 + "\n", 3, "", "not valid TOML"),

@@ -49,6 +49,7 @@ BAD = [
     ('[layer.map.A]\ngroup = "nci"\nobjects = [2]\n', "layer.map.A.objects[0] = 2: must be an index from 1 to 1"),
     ('[layer.map.A]\ngroup = "nci"\nobjects = ["X"]\n', 'layer.map.A.objects[0] = "X": must be an index from 1 to 1'),
     ('[layer.map.A]\ngroup = "cam"\nselector = true\n', "layer.map.A = {…}: must be false: the parameter selector"),
+    ('[layer.map.A]\ngroup = "cam"\nswitches = true\n', "layer.map.A = {…}: must be false: limit switches go"),
     (MAP.replace(".A]", ".1A]"), "layer.map.1A: not a name of a map; must be letters, digits"),
     (MAP.replace(".A]", ".mapping_axis]"), "layer.map.mapping_axis: not a name of a map"),
     (MAP + MAP.replace(".A]", ".B]"), "layer.map.B: axis 1 belongs to layer.map.A already"),

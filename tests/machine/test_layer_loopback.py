@@ -93,6 +93,22 @@ def test_declared_start_values_of_the_control_side_are_those_of_the_axes() -> No
         assert [axis.data.override for axis in controller.layer.axis] == [100.0] * 3
 
 
+def test_limit_switches_are_carried_where_both_sides_say_so() -> None:
+    maps = {"all": {"group": "axis", "switches": True}}
+    with Simulation(motion(maps)) as axes, Simulation(control(switches=True)) as controller:
+        loopback = Loopback(axes, controller)
+        loopback.step(60)
+        controller.layer.axis[2].limit_switches.maximum = True
+        loopback.step()
+        assert [axis.limit_switches.maximum for axis in axes.layer.axis] == [False, True, False]
+    with (
+        Simulation(motion()) as axes,
+        Simulation(control(switches=True)) as controller,
+        pytest.raises(ValueError, match=r"AxisLimitSwitches has no partner MAPPING_AXIS_in\.AxisLimitSwitches"),
+    ):
+        Loopback(axes, controller)
+
+
 def test_two_controllers_share_a_motion_machine() -> None:
     maps = {"A": {"group": "axis", "objects": ["Z", "X"]}, "B": {"group": "axis", "objects": [2]}}
     with (

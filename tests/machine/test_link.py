@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+import pyads
 import pytest
 from examples.communications.ads_tcp import read_write_of
 from tests.connect.ads_clients import Paced, connected, machine
@@ -15,6 +16,8 @@ from motionlayer.event import Level
 from motionlayer.layer import AxisCommand, Progress
 from motionlayer.machine import AdsLink, LinkError, MachineRun, ReadWrite
 from motionlayer.verify import assert_valid
+
+RESET, SYSTEM = 2, 10_000
 
 PAUSE = threading.Event()
 """Never set: who waits lets the other threads go on."""
@@ -142,3 +145,21 @@ def test_a_motion_machine_that_is_there_anew_is_brought_up_and_then_given_everyt
                 told = [event.text for event in axes.events.ring if event.source == "GVL_AXIS.Ctrl[1]"]
             commands = [text for text in told if text.startswith("new command")]
             assert commands == ["new command: E_AXIS_CTRL.AXIS_INIT", "new command: E_AXIS_CTRL.AXIS_ENABLE"]
+
+
+@pytest.mark.parametrize("ads_port", [851, SYSTEM])
+def test_a_motion_machine_that_a_client_restarts_is_noticed_and_given_everything(ads_port: int) -> None:
+    with Simulation(machine()) as axes, Simulation(control()) as controller, Paced(axes), Paced(controller):
+        x, other = controller.layer.axis["X"], axes.layer.axis["X"]
+        with connected(axes.ads.port) as plc, AdsLink(controller, read_write_of(plc)):
+            wait(lambda: controller.layer.ready)
+            x.data.velocity, x.ctrl.cmd = 70.0, AxisCommand.ENABLE
+            wait(lambda: other.state.split() == (AxisCommand.ENABLE, Progress.DONE))
+            with connected(axes.ads.port, ads_port) as service:
+                service.write_control(RESET, 0, 0, pyads.PLCTYPE_UINT)
+            wait(lambda: bool(warnings(controller)))
+            wait(lambda: other.state.split() == (AxisCommand.ENABLE, Progress.DONE))
+            assert other.data.velocity == 70.0
+        assert warnings(controller) == [
+            "the motion machine has begun anew; after its start-up everything is written again"
+        ]

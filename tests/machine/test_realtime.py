@@ -15,7 +15,7 @@ from tests.runtime.clock import MS, FakeClock
 
 from motionlayer import AxisState, CommandAborted, Machine, RealTime, Simulation
 from motionlayer.event import Device, Event, Input, Level
-from motionlayer.machine import MachineRun
+from motionlayer.machine import MachineRun, _logging
 from motionlayer.verify import assert_valid
 
 QUIET = {"priority": 0, "lock_memory": False}
@@ -272,6 +272,23 @@ def test_a_simulation_measures_on_request_only_and_stays_the_same() -> None:
                     _ = run.statistics
             hashes.append(run.trace.hash)
     assert hashes[0] == hashes[1]
+
+
+def test_with_a_layer_and_without_message_files_the_first_tick_is_no_more_than_any_other(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Without files the time of messages begins in 1970; the first tick takes it to the time of day."""
+    looked_up: list[int] = []
+
+    def offset(second: int) -> int:
+        looked_up.append(second)
+        return 0
+
+    monkeypatch.setattr(_logging, "_no_offset", offset)
+    with RealTime(machine(layer={}), clock=FakeClock()) as run:
+        run.step(50)
+        assert run.log.time(run.tick) > "2020"
+    assert 0 < len(looked_up) < 10
 
 
 def test_after_the_rehearsal_no_command_loads_a_kernel() -> None:

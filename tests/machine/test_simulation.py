@@ -41,6 +41,10 @@ def test_numbers_of_numpy_are_numbers(kind: type) -> None:
     assert x.set_position == 10.0
 
 
-def test_an_axis_shows_itself() -> None:
-    _, x = ready()
+def test_machine_run_axis_and_task_show_themselves() -> None:
+    run, x = ready()
+    name, count = run.machine.name, len(run.axes)
     assert repr(x) == "<Axis X: StandStill at 0 mm>"
+    assert repr(run.machine) == f"<Machine {name}: {count} axes>"
+    assert repr(run) == f"<Simulation of {name} at {run.time:g} s>"
+    assert repr(run.tasks["main"]) == "<Task main: every 1 ticks, 0 programs>"

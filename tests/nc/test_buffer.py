@@ -246,6 +246,8 @@ def test_a_blending_position_that_was_passed_begins_at_once() -> None:
     [
         (200.1, ErrorId.BLENDING_POSITION),
         (1e6, ErrorId.BLENDING_POSITION),
+        (-0.1, ErrorId.BLENDING_POSITION),
+        (-1e6, ErrorId.BLENDING_POSITION),
         (math.nan, ErrorId.TARGET_NOT_FINITE),
         (math.inf, ErrorId.TARGET_NOT_FINITE),
     ],
@@ -257,6 +259,22 @@ def test_a_wrong_blending_position_is_refused(place: float, error: ErrorId) -> N
     assert error_of(two) is error
     finish(run, one)
     assert x.set_position == 200.0
+
+
+def test_the_beginning_of_a_move_bounds_its_blending_position_and_moves_with_the_coordinate() -> None:
+    run, x = ready()
+    x.move_absolute(50.0, velocity=300.0)
+    one = x.move_absolute(200.0, velocity=300.0, buffer_mode=BufferMode.BLENDING_HIGH)
+    finish(run, x.passes(100.0))
+    x.define_position(10.0, relative=True)
+    assert one.active
+    refused = x.move_absolute(300.0, buffer_mode=BufferMode.BLENDING_LOW, blending_position=59.0)
+    assert error_of(refused) is ErrorId.BLENDING_POSITION
+    two = x.move_absolute(300.0, buffer_mode=BufferMode.BLENDING_LOW, blending_position=61.0)  # which it has passed
+    assert one.by is two
+    finish(run, two)
+    run.step(2)
+    assert_valid(run.trace)
 
 
 def test_a_turn_at_a_blending_position() -> None:

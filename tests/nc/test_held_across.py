@@ -1,7 +1,8 @@
 """What override 0 carries across a place that is to be passed, or so near to it that it cannot be passed any more.
 
 A hold brakes without regard to the joint or to the target of a continuous move. For some milliseconds before such a
-place its acceleration cannot be taken back in time, and to pass it with one is not what a joint is.
+place its acceleration cannot be taken back in time, and to pass it with one is not what a joint is. Nothing turns back
+for it then: the motions hand over where the acceleration has been taken back, or at rest.
 """
 
 from itertools import pairwise
@@ -27,7 +28,7 @@ RISES = range(1, 120, 7)
 def chained(follower: str, mode: BufferMode, place: float | None = None) -> tuple[Simulation, Axis, list[AxisCommand]]:
     """Return a run, its axis, and the commands of a running and a blended motion."""
     run, x = ready()
-    first = x.move_absolute(JOINT, velocity=380.0)
+    first = x.move_absolute(JOINT, velocity=400.0)
     match follower:
         case "forwards":
             second = x.move_absolute(350.0, velocity=300.0, buffer_mode=mode, blending_position=place)
@@ -48,6 +49,14 @@ def ended(follower: AxisCommand) -> bool:
     return follower.done or (follower.error is not None and follower.error.id is ErrorId.MAXIMUM_PASSED)
 
 
+def run_out(run: Simulation, follower: AxisCommand) -> None:
+    """Run until a follower has ended, for three seconds at most, and on for a moment."""
+    for _ in range(30):
+        run.step(100)
+        if not follower.busy:
+            return
+
+
 def hold(run: Simulation, x: Axis, ticks: int, factor: float = 1.0) -> None:
     """Hold the axis at override 0, and let it go on."""
     x.set_override(0.0)
@@ -55,21 +64,48 @@ def hold(run: Simulation, x: Axis, ticks: int, factor: float = 1.0) -> None:
     x.set_override(factor)
 
 
+def assert_never_turned(run: Simulation) -> None:
+    """Assert that the axis has gone in positive direction alone."""
+    assert all(after >= earlier for earlier, after in pairwise(run.trace["X.set_position"].tolist()))
+
+
 @pytest.mark.parametrize("follower", FOLLOWERS)
-@pytest.mark.parametrize("ticks", RISES)
-def test_a_joint_that_a_hold_carries_the_axis_across_is_still_met(follower: str, ticks: int) -> None:
+@pytest.mark.parametrize("ticks", [*RISES, 2, 3, 30, 60])
+def test_a_joint_that_a_hold_carries_the_axis_across_is_not_come_back_to(follower: str, ticks: int) -> None:
     run, x, (first, second) = chained(follower, BufferMode.BLENDING_PREVIOUS)
     finish(run, x.passes(JOINT - 1.0))
     hold(run, x, ticks)
-    run.step(3000)
+    run_out(run, second)
     assert first.done
     assert ended(second)
+    if follower != "backwards":  # that one rests at the joint: a hold stops before it
+        assert_never_turned(run)
     assert_valid(run.trace)
 
 
-def test_a_joint_too_near_for_the_acceleration_to_be_taken_back_is_come_back_to() -> None:
-    """And the first command is done there, at rest, and not before."""
+@pytest.mark.parametrize(("ticks", "rests"), [(20, False), (64, False), (119, True), (400, True)])
+def test_the_follower_takes_over_where_the_acceleration_has_been_taken_back(ticks: int, rests: bool) -> None:
+    """And the first command is done there, inside a cycle, at rest where nothing is left of the velocity."""
     run, x, (first, _) = chained("forwards", BufferMode.BLENDING_PREVIOUS)
+    finish(run, x.passes(JOINT - 1.0))
+    hold(run, x, ticks)
+    v, a, released = x.set_velocity, x.set_acceleration, run.time
+    assert x.set_position > JOINT
+    remains = v - a * a / 2e5
+    assert (remains <= 0.0) is rests
+    finish(run, first)
+    assert first.end_time == pytest.approx(released + abs(a) / 1e5, abs=1e-9)
+    taken_over = run.tick - 1
+    run.step(3000)
+    last = run.trace.plans[-1]
+    assert (last.tick, last.target) == (taken_over, 350.0)
+    assert last.pieces[0, 2:4].tolist() == pytest.approx([max(remains, 0.0), 0.0], abs=1e-6)
+    assert_never_turned(run)
+    assert_valid(run.trace)
+
+
+def test_a_joint_too_near_for_the_acceleration_to_be_taken_back_is_as_good_as_passed() -> None:
+    run, x, (first, second) = chained("forwards", BufferMode.BLENDING_PREVIOUS)
     finish(run, x.passes(JOINT - 8.0))
     x.set_override(0.0)
     finish(run, x.passes(JOINT - 1.0))
@@ -78,10 +114,87 @@ def test_a_joint_too_near_for_the_acceleration_to_be_taken_back_is_come_back_to(
     assert settling > 2.0 * room
     x.set_override(1.0)
     finish(run, first)
-    assert x.set_position == pytest.approx(JOINT, abs=0.01)
-    run.step(2000)
-    assert run.trace["X.set_position"][: run.tick - 2000].max() > JOINT + 1.0
-    assert run.trace["X.set_velocity"].min() < 0.0
+    assert JOINT < x.set_position < JOINT + settling
+    finish(run, second)
+    run.step(2)
+    assert_never_turned(run)
+    assert_valid(run.trace)
+
+
+@pytest.mark.parametrize("factors", [(0.3, 1.0), (0.01, 0.5, 1.0), (0.5, 0.0, 1.0)])
+def test_an_override_that_changes_again_before_the_follower_has_taken_over(factors: tuple[float, ...]) -> None:
+    for ticks in (10, 60, 119):
+        run, x, (first, second) = chained("forwards", BufferMode.BLENDING_PREVIOUS)
+        finish(run, x.passes(JOINT - 1.0))
+        hold(run, x, ticks, factors[0])
+        for factor in factors[1:]:
+            run.step(2)
+            x.set_override(factor)
+        run_out(run, second)
+        assert first.done
+        assert second.done
+        assert_never_turned(run)
+        assert_valid(run.trace)
+
+
+def test_a_follower_that_could_not_brake_any_more_takes_over_at_rest() -> None:
+    """Nobody is carried past a software limit to save a stop: the target of the follower lies on it."""
+    run, x = ready(software_limit_max=JOINT + 25.0)
+    first = x.move_absolute(JOINT, velocity=400.0)
+    second = x.move_absolute(JOINT + 25.0, velocity=400.0, buffer_mode=BufferMode.BLENDING_PREVIOUS)
+    finish(run, x.passes(JOINT - 1.0))
+    hold(run, x, 70)
+    finish(run, first)
+    assert x.set_velocity == pytest.approx(0.0, abs=0.1)
+    finish(run, second)
+    run.step(2)
+    assert_never_turned(run)
+    assert_valid(run.trace)
+
+
+def test_a_relative_follower_still_counts_from_the_joint() -> None:
+    run, x = ready()
+    x.move_absolute(JOINT, velocity=400.0)
+    second = x.move_relative(100.0, velocity=300.0, buffer_mode=BufferMode.BLENDING_PREVIOUS)
+    finish(run, x.passes(JOINT - 1.0))
+    hold(run, x, 40)
+    finish(run, second)
+    assert x.set_position == JOINT + 100.0
+    run.step(2)
+    assert_valid(run.trace)
+
+
+@pytest.mark.parametrize("ticks", [30, 64, 119, 400])
+def test_a_continuous_follower_is_not_turned_round_for_a_target_that_was_passed_too(ticks: int) -> None:
+    run, x = ready(software_limit_max=None)
+    first = x.move_absolute(JOINT, velocity=400.0)
+    onward = x.move_continuous_absolute(JOINT + 3.0, 150.0, buffer_mode=BufferMode.BLENDING_PREVIOUS)
+    finish(run, x.passes(JOINT - 1.0))
+    hold(run, x, ticks)
+    assert x.set_position > JOINT + 3.0
+    run.step(1000)
+    assert first.done
+    assert onward.in_end_velocity
+    assert_never_turned(run)
+    assert_valid(run.trace)
+
+
+def test_a_follower_that_is_commanded_in_the_hold_takes_over_behind_its_joint_too() -> None:
+    run, x = ready()
+    first = x.move_absolute(300.0, velocity=400.0)
+    finish(run, x.passes(JOINT - 1.0))
+    x.set_override(0.0)
+    run.step(1)
+    place = x.set_position + 5.0
+    second = x.move_absolute(350.0, velocity=300.0, buffer_mode=BufferMode.BLENDING_HIGH, blending_position=place)
+    run.step(60)
+    assert x.set_position > place
+    assert first.busy
+    x.set_override(1.0)
+    finish(run, second)
+    assert first.done
+    run.step(2)
+    assert_never_turned(run)
     assert_valid(run.trace)
 
 
@@ -92,7 +205,7 @@ def test_a_blending_position_before_the_target_is_met_too(follower: str, ticks: 
     run, x, (first, second) = chained(follower, BufferMode.BLENDING_LOW, place=180.0)
     finish(run, x.passes(179.0))
     hold(run, x, ticks)
-    run.step(3000)
+    run_out(run, second)
     assert first.done
     assert second.done
     assert_valid(run.trace)
@@ -120,6 +233,7 @@ def test_a_continuous_move_is_not_turned_round_for_its_target(before: float, tic
     before=st.floats(0.01, 40.0),
     factors=st.lists(st.tuples(st.integers(1, 60), st.floats(0.05, 1.0), st.integers(1, 40)), min_size=1, max_size=4),
 )
+@example("forwards", BufferMode.BLENDING_PREVIOUS, None, 1.0, [(1, 0.5, 1)])
 @example("forwards", BufferMode.BLENDING_HIGH, 150.0, 2.0, [(40, 1.0, 2), (30, 0.5, 1), (9, 1.0, 1)])
 def test_holds_round_a_joint_end_nothing_in_an_error(
     follower: str,
@@ -134,7 +248,7 @@ def test_holds_round_a_joint_end_nothing_in_an_error(
         hold(run, x, ticks, factor)
         run.step(going)
     x.set_override(1.0)
-    run.step(3000)
+    run_out(run, second)
     assert first.done
     assert ended(second)
     assert_valid(run.trace)

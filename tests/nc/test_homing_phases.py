@@ -161,7 +161,7 @@ def test_a_switch_that_never_comes_ends_the_search() -> None:
     command = x.home()
     finish(run, command)
     assert error_of(command) is ErrorId.CAM_NOT_FOUND
-    assert "within 1000.0 mm" in str(command.error)
+    assert "home.travel = 1000 mm" in str(command.error)
     run.step(200)
     assert_valid(run.trace)
 
@@ -298,3 +298,19 @@ def test_a_shift_that_would_lead_a_target_outside_is_refused() -> None:
     assert error_of(x.define_position(20.0, relative=True)) is ErrorId.TARGET_OUTSIDE_LIMITS
     finish(run, move)
     assert x.set_position == 390.0
+
+
+@pytest.mark.parametrize("target", [230.0, 390.0])
+def test_a_shift_before_a_joint_asks_for_the_room_of_both_motions(target: float) -> None:
+    """Alone, the first would come to rest far behind its joint, at 330; with the second it never goes there."""
+    run, x = ready()
+    x.move_absolute(200.0, velocity=400.0, deceleration=600.0)
+    second = x.move_absolute(target, velocity=400.0, buffer_mode=BufferMode.BLENDING_HIGH)
+    finish(run, x.passes(199.5))
+    shift = 150.0
+    inside = target + shift <= 400.0
+    assert error_of(x.define_position(shift, relative=True)) is (None if inside else ErrorId.TARGET_OUTSIDE_LIMITS)
+    finish(run, second)
+    assert x.set_position == target + (shift if inside else 0.0)
+    run.step(2)
+    assert_valid(run.trace)

@@ -1,5 +1,6 @@
 """Monitors: lag, windows, arrival, actual software limits."""
 
+import re
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -196,3 +197,16 @@ def test_every_error_that_a_drive_or_monitor_brings_has_its_reaction() -> None:
         ErrorId.DRIVE_NOT_READY,
         ErrorId.IO_DATA_INVALID,
     }
+
+
+@pytest.mark.parametrize(("torque", "named"), [(1000.0, True), (6000.0, False)])
+def test_a_drive_without_enough_torque_is_named_where_it_lags(torque: float, named: bool) -> None:
+    monitor = {"lag": 0.5 if named else 0.05}
+    run, (x,) = ready_servos(monitor=monitor, drive={"max_acceleration": torque, "velocity_feed_forward": 1.0})
+    move = x.move_absolute(200.0)
+    finish(run, move)
+    assert move.error is not None
+    assert ("; the torque of the drive allows 1000 mm/s²)" in move.error.text) is named
+    (lag,) = re.findall(r"lag = ([\d.]+), allowed", move.error.text)
+    assert len(lag) <= 12
+    assert_valid(run.trace)

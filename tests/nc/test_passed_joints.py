@@ -5,7 +5,7 @@ import math
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from motionlayer.nc._ways import Point, through
+from motionlayer.nc._through import Point, through
 from motionlayer.profile import Limits
 
 LIMITS = Limits(500.0, 5000.0, 3000.0, 1e5)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import pytest
 
 from motionlayer.command import ErrorId
-from motionlayer.nc import Axis, AxisCommand, BufferMode, RampKeywords
+from motionlayer.nc import Axis, AxisCommand, BufferMode
 from motionlayer.profile import RANGES
 from motionlayer.verify import assert_valid
 from tests.machines import error_of, finish, ready
@@ -72,37 +72,10 @@ TOO_LONG: dict[str, Call] = {
     "a way": lambda x: x.move_absolute(1e12, velocity=SLOW),
     "a way just too far": lambda x: x.move_absolute(FARTHEST, velocity=SLOW),
     "hardly any jerk": lambda x: x.move_absolute(100.0, jerk=1e-50),
-    "hardly any acceleration": lambda x: x.move_relative(-100.0, acceleration=1e-50),
     "hardly any velocity": lambda x: x.move_absolute(1.0, velocity=RANGES.smallest),
     "a velocity with hardly any jerk": lambda x: x.move_velocity(100.0, jerk=1e-50),
     "a place to pass": lambda x: x.move_continuous_absolute(FARTHEST, SLOW, velocity=SLOW),
 }
-
-
-@pytest.mark.parametrize(
-    ("name", "mode"), [("deceleration", BufferMode.ABORTING), ("acceleration", BufferMode.BUFFERED)]
-)
-def test_an_acceleration_too_weak_to_be_planned_says_how_much_it_takes(name: str, mode: BufferMode) -> None:
-    run, x = ready(**FREE)
-    x.move_absolute(1e5, velocity=0.1)
-    run.step(100)
-    told = []
-    for exponent in range(9, 25):
-        value = 0.1**exponent
-        weak: RampKeywords = {"acceleration": value} if name == "acceleration" else {"deceleration": value}
-        for way in (1e2, 1e5, 1e8):
-            refused = x.move_relative(way, velocity=500.0, buffer_mode=mode, **weak)
-            if refused.error is None:
-                run.step(2)
-                x.move_absolute(1e5, velocity=0.1)
-                run.step(2)
-            elif refused.error.id is not ErrorId.POSITIONING_TOO_LONG:
-                told.append(refused.error)
-    assert told
-    assert {error.id for error in told} == {ErrorId.ACCELERATION_TOO_SMALL}
-    allowed = "allowed: from 0.00707107 mm/s² on beside velocity = 500.0 and jerk = 100000.0"
-    assert all(f"{name} = " in error.detail and allowed in error.detail for error in told)
-    assert_valid(run.trace)
 
 
 LONG: dict[str, Call] = {

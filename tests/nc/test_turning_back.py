@@ -1,4 +1,4 @@
-"""Moves that can come to their target only by turning back say so: warning 0x427E."""
+"""Moves in motion that overshoot a target ahead, and turn back, say so: warning 0x427E."""
 
 import pytest
 
@@ -17,12 +17,14 @@ def warned(run: Simulation, number: int) -> bool:
     return any(event.command == number for event in found)
 
 
-@pytest.mark.parametrize(("target", "turns"), [(0.0, True), (70.0, True), (395.0, False)])
-def test_an_absolute_move_warns_if_it_turns_back(target: float, turns: bool) -> None:
+@pytest.mark.parametrize(
+    ("target", "turns", "warns"), [(0.0, True, False), (70.0, True, False), (95.0, True, True), (395.0, False, False)]
+)
+def test_an_absolute_move_warns_if_it_turns_back_unasked(target: float, turns: bool, warns: bool) -> None:
     run, x = ready()
     x.move_absolute(350.0)
     run.step(250)
-    speed = x.set_velocity
+    speed, begin = x.set_velocity, x.set_position
     move = x.move_absolute(target)
     assert move.error is None
     finish(run, move)
@@ -31,7 +33,8 @@ def test_an_absolute_move_warns_if_it_turns_back(target: float, turns: bool) -> 
     trace = run.trace
     assert (trace["X.set_velocity"].min() < 0.0) == turns
     assert speed > 0.0
-    assert warned(run, move.number) == turns
+    assert (target > begin) == (warns or not turns)
+    assert warned(run, move.number) == warns
     assert_valid(trace)
 
 
@@ -46,14 +49,15 @@ def test_nothing_turns_back_from_rest_or_at_a_joint() -> None:
     assert not warned(run, second.number)
 
 
-def test_a_continuous_motion_behind_warns_too() -> None:
+@pytest.mark.parametrize(("way", "warns"), [(-40.0, False), (0.5, True)])
+def test_a_continuous_motion_warns_too(way: float, warns: bool) -> None:
     run, x = ready()
     x.move_velocity(200.0)
     run.step(150)
-    back = x.move_continuous_absolute(-20.0, 50.0)
+    back = x.move_continuous_absolute(x.set_position + way, 1.0)
     run.step(400)
     halt = x.halt()
     finish(run, halt)
     run.step(2)
     assert_valid(run.trace)
-    assert warned(run, back.number)
+    assert warned(run, back.number) == warns

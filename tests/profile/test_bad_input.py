@@ -60,7 +60,7 @@ def exact_or_refused(plan: Callable[[], Profile], start: tuple[float, float, flo
     except ArithmeticError:
         return None
     assert_begins(profile, start, limits)
-    assert_continuous(profile, limits)
+    assert_continuous(profile)
     assert (np.abs(profile.pieces[:, 4]) <= limits.jerk).all()
     return profile
 

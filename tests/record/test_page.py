@@ -105,23 +105,39 @@ def test_many_sources_share_a_row_and_many_marks_are_thinned() -> None:
 
 def test_errors_and_warnings_are_listed_at_the_end(tmp_path: Path) -> None:
     page = page_of(trace_of(EVENTS), tmp_path)
-    rows = re.findall(r"<tr><td>([\d.]+) s</td><td>(\w+)</td><td>([^<]+)</td><td>([^<]*)</td></tr>", page)
+    rows = re.findall(r"<tr><td>([\d.]+) s</td><td>(\w+)</td><td>([^<]+)</td></tr>", page)
     assert rows == [
-        ("0.001000", "warning", "Y", "Y.move: &lt;i&gt;outside&lt;/i&gt;"),
-        ("0.002000", "error", "X", "lag too large"),
-        ("0.002000", "error", "X", "drive fault"),
-        ("0.003000", "warning", "Y", "hot"),
-        ("0.004000", "error", "program pick", "ValueError: boom"),
+        ("0.002000", "error", "X: lag too large"),
+        ("0.002000", "error", "X: drive fault"),
+        ("0.004000", "error", "program pick: ValueError: boom"),
+        ("0.001000", "warning", "Y.move: &lt;i&gt;outside&lt;/i&gt;"),
+        ("0.003000", "warning", "Y: hot"),
     ]
     assert page.index("Over time") < page.index("Errors and warnings") < page.index("<footer>")
     assert "program failed</span>" in page
     assert " more</div>" not in page
 
 
+def test_a_flood_of_warnings_is_one_line_and_hides_no_error(tmp_path: Path) -> None:
+    late = [Event(n, Level.WARNING, Kind.MESSAGE, "runtime", f"{n} ticks late; programs, {n}.5 ms") for n in range(99)]
+    page = page_of(trace_of([*late, Event(100, Level.ERROR, Kind.MESSAGE, "X", "drive fault", 0x4650)]), tmp_path)
+    rows = re.findall(r"<td>(error|warning)</td><td>([^<]+)</td></tr>", page)
+    assert rows == [
+        ("error", "X: drive fault"),
+        ("warning", "runtime: 0 ticks late; programs, 0.5 ms (99 times, the last at 0.098000 s)"),
+    ]
+
+
+def test_a_message_of_the_layer_is_listed_with_its_subdevice_and_number(tmp_path: Path) -> None:
+    event = Event(5, Level.ERROR, Kind.MESSAGE, "GVL_AXIS.Ctrl[1]", " : PROGRESS_ERROR", 0x4650, 0, 14001, 1003)
+    page = page_of(trace_of([event]), tmp_path)
+    assert "<td>GVL_AXIS.Ctrl[1]: AxisCycle PROGRESS_ERROR [0x4650]</td>" in page
+
+
 def test_only_the_first_errors_are_listed(tmp_path: Path) -> None:
     page = page_of(trace_of([Event(1, Level.ERROR, Kind.MESSAGE, "X", f"number {n}") for n in range(33)]), tmp_path)
-    assert "<td>number 19</td>" in page
-    assert "<td>number 20</td>" not in page
+    assert "<td>X: number 19</td>" in page
+    assert "<td>X: number 20</td>" not in page
     assert "and 13 more</div>" in page
 
 

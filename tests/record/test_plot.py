@@ -1,6 +1,8 @@
 import json
 import subprocess
 import sys
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,9 +12,10 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 from motionlayer.record import Trace, TraceWriter
+from motionlayer.record.plot import write_page
+from motionlayer.record.plot._figures import number
 from motionlayer.record.plot._layout import MOST_TICKS, _round_times
-from motionlayer.record.plot._page import _number
-from motionlayer.record.plot._path import SPEED_SCALE, _colour, _joined
+from motionlayer.record.plot._path import SPEED_SCALE, _colour, _joined, path_chart
 from motionlayer.record.plot._reduce import COARSEST, FINEST, Reduced, extent, follow, reduce, steps, thin
 from motionlayer.record.plot._series import (
     Run,
@@ -21,6 +24,8 @@ from motionlayer.record.plot._series import (
     opening,
     places_of_rest,
     plane_of,
+    redefined,
+    speed_along,
     state_runs,
 )
 
@@ -234,6 +239,38 @@ def test_places_of_rest_are_counted() -> None:
     assert counts.tolist() == [2, 1]
 
 
+def homed() -> Trace:
+    """Return a trace of X, Y in which homing gives X another coordinate: 1 mm/s all the time, and a jump of 50 mm."""
+    x, y = np.arange(20.0) * 1e-3, np.zeros(20)
+    x[10:] += 50.0
+    y[5:] = 3.0
+    writer = TraceWriter(None, header(["X.set_position", "Y.set_position"]))
+    writer.plan(replace(plan(tick=10), kind="set"))
+    writer.rows(0, np.array([x, y]).T)
+    writer.close(20, "")
+    return Trace.from_chunks(writer.chunks)
+
+
+def test_a_position_that_is_redefined_is_no_motion() -> None:
+    trace = homed()
+    x, y = trace["X.set_position"], trace["Y.set_position"] * 0.0
+    assert redefined(trace, "X", "Y").tolist() == [10]
+    assert redefined(trace, "Y").tolist() == []
+    assert key_figures(trace, "X").travel == pytest.approx(0.018)
+    assert speed_along(x, y, 1e-3, redefined(trace, "X")) == pytest.approx(np.ones(20))
+    figure = path_chart(trace, ("X", "Y")).figure
+    for curve in figure.data[1:-1]:
+        ends = np.abs(np.diff(np.asarray(curve.x, np.float64)))
+        assert not (ends > 1.0).any(), "no line leads from the old coordinate to the new one"
+
+
+def test_no_path_is_drawn_of_an_axis_that_never_moves(tmp_path: Path) -> None:
+    for still in ("X", "Y", ""):
+        columns = {f"{axis}.set_position": [0.0, 0.0 if axis == still else 1.0] for axis in "XY"}
+        write_page(trace_of(columns), tmp_path / "x.html")
+        assert ("Path in the plane" in (tmp_path / "x.html").read_text(encoding="utf-8")) == (not still)
+
+
 @pytest.mark.parametrize(
     ("value", "text"),
     [
@@ -246,7 +283,7 @@ def test_places_of_rest_are_counted() -> None:
     ],
 )
 def test_numbers_for_people(value: float, text: str) -> None:
-    assert _number(value) == text
+    assert number(value) == text
 
 
 def test_the_face_of_the_package_does_without_plotly() -> None:

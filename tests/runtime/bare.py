@@ -19,3 +19,12 @@ def bare(*tasks: TaskConfig, stages: list[Stage] | None = None, failed: Callable
 def stepped(*tasks: TaskConfig) -> SteppedRun:
     """Return the same with pause, breakpoints and snapshots."""
     return SteppedRun([], base_cycle_ns=MILLISECOND, ledger=Ledger(), events=EventLog(), on_failure=print, tasks=tasks)
+
+
+def noting(seen: list[tuple[int, str]], name: str) -> Callable[[Run], None]:
+    """Return a cyclic function that notes when it is called."""
+
+    def note(run: Run) -> None:
+        seen.append((run.tick, name))
+
+    return note

@@ -236,6 +236,24 @@ def generator() -> Any:
     yield
 
 
+class Described:
+    """One that says of itself and of what it holds that it never changes."""
+
+    UNCHANGING = True
+
+    def __init__(self) -> None:
+        self.held = [1]
+
+
+def test_what_says_that_it_never_changes_is_left_alone() -> None:
+    described, changing = Described(), [1]
+    copies = Copies([("root", [described, changing])], [])
+    described.held.append(2)
+    changing.append(2)
+    copies.put_back()
+    assert (described.held, changing) == ([1, 2], [1])
+
+
 class Holds:
     """A user's class with something that cannot be seen."""
 

@@ -112,6 +112,7 @@ def test_braking_is_told_once_in_every_incident() -> None:
     for _ in range(3):
         line.run(int(12.5 * MS), *[1000] * 3)
     assert line.reports == [11, 11, 11]
+    assert line.pace.brakes == 3
 
 
 def test_warnings_come_once_a_second_and_all_overruns_are_counted() -> None:

@@ -1,29 +1,21 @@
 """Snapshots: after `restore` a run goes on bit for bit as one that has never been elsewhere."""
 
-from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from motionlayer import RealTime, Simulation
-from motionlayer.event import Input, Level
+from motionlayer import Simulation
 from motionlayer.fb import MC_MoveAbsolute, MC_Power
-from motionlayer.machine import LogDescription
-from motionlayer.record import Trace, TraceError
-from motionlayer.runtime import CycleFault, NotCopyable, Run
+from motionlayer.record import Trace
+from motionlayer.runtime import CycleFault, Run
 from motionlayer.verify import assert_valid
 from tests.effort import examples
-from tests.machines import machine, one_axis, ready
-from tests.record.log.support import files
+from tests.machines import machine, ready
 from tests.runtime.bare import stepped
-from tests.runtime.clock import FakeClock
 from tests.runtime.lives import lively, state
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 
 def elsewhere(run: Simulation, ticks: int) -> None:
@@ -173,37 +165,6 @@ def test_a_watch_is_passed_again() -> None:
     assert times[0] == times[1]
 
 
-def test_coroutines_are_named_and_those_that_have_ended_are_no_hindrance() -> None:
-    run, x = one_axis()
-
-    async def first() -> Any:
-        await x.enable()
-        return (n for n in range(3))  # cannot be copied, and need not be
-
-    async def second() -> None:
-        await run.sleep(1.0)
-
-    run.run(first())
-    run.snapshot()
-    run.start(second())
-    run.start(second(), name="third")
-    run.step()
-    with pytest.raises(NotCopyable, match=r"^program second, third: a coroutine, and where it waits cannot"):
-        run.snapshot()
-
-
-def test_a_run_that_begins_with_a_coroutine_says_so_when_it_is_reset() -> None:
-    run, x = one_axis()
-
-    async def first() -> None:
-        await x.enable()
-
-    run.run(first())
-    with pytest.raises(NotCopyable, match="no way back to before the first tick: program first: a coroutine"):
-        run.reset()
-    run.restore(run.snapshot())
-
-
 def test_a_coroutine_that_the_snapshot_does_not_know_is_closed() -> None:
     run, x = ready()
     kept, seen = run.snapshot(), []
@@ -255,61 +216,6 @@ def test_restore_after_a_fault_of_the_cycle() -> None:
     assert x.set_position == 100.0
 
 
-def test_areas_come_back_and_readers_see_the_tick() -> None:
-    run = stepped()
-    inside, outside = run.areas.add("inside", 2), run.areas.add("outside", 2, outside=True)
-
-    def counts(run: Run) -> None:
-        inside.claim()[0] = run.tick
-
-    run.cyclic(counts)
-    outside.post(b"ab")
-    run.step(6)
-    kept = run.snapshot()
-    outside.post(b"cd")
-    run.step(20)
-    assert outside.read() == b"cd"
-    run.restore(kept)
-    assert (inside.read_with_tick(), outside.read()) == ((5, b"\x05\0"), b"ab")
-    run.step()
-    assert inside.read_with_tick() == (6, b"\x06\0")
-
-
-def test_what_is_posted_and_not_applied_stays_and_what_was_fed_comes_again() -> None:
-    run, got = stepped(), list[bytes]()
-    run.mailbox.register("test", got.append)
-    waiting = run.mailbox.post("test", b"posted")
-    kept = run.snapshot()
-    run.restore(kept)
-    assert not waiting.settled
-    run.step()
-    assert waiting.wait(0.0) == 0
-    run.mailbox.feed([Input(3, "test", b"early"), Input(8, "test", b"late")])
-    run.step(5)
-    kept = run.snapshot()
-    for _ in range(2):
-        run.step(10)
-        run.restore(kept)
-    assert got == [b"posted", b"early", b"late", b"late"]
-
-
-def test_what_cannot_be_copied_is_named_with_its_place() -> None:
-    run = stepped()
-
-    def opens(_: Run, memory: SimpleNamespace) -> None:
-        memory.files = {"log": [open(__file__)]}  # noqa: SIM115, PTH123 - it is closed below
-
-    program = run.cyclic(opens)
-    run.step()
-    with pytest.raises(NotCopyable) as caught:
-        run.snapshot()
-    program.memory.files["log"][0].close()
-    assert str(caught.value) == (
-        "program opens.memory.files['log'][0] is a _io.TextIOWrapper, which cannot be copied; "
-        "keep it in a global or a closure instead"
-    )
-
-
 def test_a_method_is_a_program_with_its_object_as_memory() -> None:
     class Counter:
         __slots__ = ("last", "n")
@@ -328,83 +234,6 @@ def test_a_method_is_a_program_with_its_object_as_memory() -> None:
     run.restore(kept)
     assert counter.n == 0
     assert not hasattr(counter, "last")
-
-
-def test_only_between_ticks_and_only_its_own() -> None:
-    run, other = stepped(), stepped()
-    kept = other.snapshot()
-    with pytest.raises(ValueError, match=r"<Snapshot of tick 0> is of another run: restore it there"):
-        run.restore(kept)
-    failures = []
-
-    def inside(run: Any) -> None:
-        for action in (run.snapshot, lambda: run.restore(kept), run.advance):
-            with pytest.raises(RuntimeError, match="a program cannot") as caught:
-                action()
-            failures.append(str(caught.value))
-
-    run.cyclic(inside)
-    run.step()
-    assert failures[0].startswith("a program cannot take a snapshot itself: that is for who made the run")
-    assert len(failures) == 3
-    assert not run.failures
-
-
-def test_a_trace_in_a_file_cannot_go_back_and_nothing_has_changed(tmp_path: Path) -> None:
-    with Simulation(machine(), trace=tmp_path / "x.trace") as run:
-        x = run.axes["X"]
-        kept = run.snapshot()
-        x.enable()
-        run.step(20)
-        actions: list[Callable[[], None]] = [lambda: run.restore(kept), run.reset]
-        for action in actions:
-            with pytest.raises(TraceError, match=r"x\.trace: a trace that is written to a file cannot go back; keep"):
-                action()
-        assert (run.tick, x.enabled) == (20, True)
-    assert_valid(Trace.load(tmp_path / "x.trace"))
-
-
-def test_a_run_that_has_ended_cannot_go_back() -> None:
-    run, _ = ready()
-    kept = run.snapshot()
-    run.close()
-    with pytest.raises(RuntimeError, match="make a new Simulation"):
-        run.restore(kept)
-
-
-def test_a_real_time_run_goes_back_and_begins_in_time() -> None:
-    run = RealTime(machine(), clock=FakeClock(), trace=False)
-    x, clock = run.axes["X"], run._pace._clock
-    assert isinstance(clock, FakeClock)
-    x.enable()
-    run.run(time=0.1)
-    clock.work(10**9)
-    run.reset()
-    run.run(time=0.1)
-    assert run.statistics.overruns == 0
-    assert run.statistics.lateness.count == 200
-    assert not run.events.last(Level.WARNING)
-    fresh = Simulation(machine(), trace=False)
-    fresh.axes["X"].enable()
-    fresh.run(time=0.1)
-    assert run.close() == fresh.close()
-
-
-def test_time_in_message_files_goes_on(tmp_path: Path) -> None:
-    log = LogDescription(folder=str(tmp_path), level="verbose", start="2025-10-24T13:00:00")
-    with Simulation(machine(), log=log) as run:
-        x = run.axes["X"]
-        run.step(50)
-        kept = run.snapshot()
-        for _ in range(3):
-            x.enable()
-            run.step(100)
-            run.restore(kept)
-        run.step(10)
-        x.enable()
-    (lines,) = files(tmp_path).values()
-    accepted = [line.split("\t")[1] for line in lines if line.endswith("enable()")]
-    assert accepted == [f"2025-10-24-13:00:00.{ms:03d}" for ms in (50, 150, 250, 360)]
 
 
 def test_function_blocks_in_a_memory_come_back_with_their_outputs_and_images() -> None:

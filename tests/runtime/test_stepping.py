@@ -136,10 +136,19 @@ def test_stop_ends_advance() -> None:
     assert (run.tick, program.busy, run.ending) == (8, True, "enough")
 
 
-@pytest.mark.parametrize(("time", "said"), [(-1.0, "must be finite"), (float("nan"), "must be finite")])
+@pytest.mark.parametrize(("time", "said"), [(-1.0, "allowed: 0 to"), (float("nan"), "allowed: 0 to")])
 def test_a_time_that_is_none_is_refused(time: float, said: str) -> None:
     with pytest.raises(ValueError, match=rf"advance\({time}\): {said}"):
         stepped().advance(time)
+
+
+@pytest.mark.parametrize(("ticks", "error"), [(-1, ValueError), (1.5, TypeError), (True, TypeError), ("3", TypeError)])
+def test_step_takes_whole_ticks_and_goes_on_after_a_mistake(ticks: Any, error: type[Exception]) -> None:
+    run = stepped()
+    with pytest.raises(error, match=r"step\("):
+        run.step(ticks)
+    run.step(2)
+    assert run.tick == 2
 
 
 @pytest.mark.parametrize("ticks", [0, -1, 1.5, True, "3"])
@@ -310,3 +319,56 @@ def test_advance_in_real_time_is_in_time() -> None:
     assert run.advance(1.0) is not None
     assert command.done
     assert clock.now - begin == pytest.approx((run.tick - 1) * MS, abs=MS / 10)
+
+
+# -- until a condition holds -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("make", [Simulation, lambda machine: RealTime(machine, clock=FakeClock())])
+def test_a_run_goes_on_until_a_condition_holds(make: Callable[..., Simulation]) -> None:
+    with make(machine()) as run:
+        x = run.axes["X"]
+        x.enable()
+        assert run.advance_until(lambda: x.state is AxisState.STANDSTILL, time=0.1)
+        x.move_absolute(100.0)
+        assert run.advance_until(lambda: x.set_position > 50.0, time=5.0)
+        position, tick = x.set_position, run.tick
+        assert 50.0 < position < 51.0
+        assert run.advance_until(lambda: x.set_position > 50.0, time=5.0)
+        assert run.tick == tick
+        assert not run.advance_until(lambda: x.set_position > 100.0, time=1.0)
+        assert run.tick == tick + 1000
+        assert x.set_position == 100.0
+        assert_valid(run.trace)
+
+
+def test_the_condition_is_waited_for_also_when_the_programs_have_ended() -> None:
+    with Simulation(machine()) as run:
+
+        async def program() -> None:
+            await run.axes["X"].enable()
+            run.axes["X"].move_absolute(300.0)
+
+        run.start(program())
+        assert run.advance_until(lambda: run.axes["X"].set_position == 300.0, time=5.0)
+        assert_valid(run.trace)
+
+
+def test_who_stops_the_run_ends_the_wait_for_a_condition() -> None:
+    run = stepped()
+    run.cyclic(lambda one: one.stop("enough") if one.tick == 7 else None)
+    assert not run.advance_until(lambda: False, time=1.0)
+    assert (run.tick, run.ending) == (8, "enough")
+
+
+def test_what_is_no_condition_and_what_is_no_time() -> None:
+    run = stepped()
+    with pytest.raises(TypeError, match=r"advance_until\(True\): give a function, as in advance_until\(lambda: "):
+        run.advance_until(True, time=1.0)  # type: ignore[arg-type]
+    for time in (-1.0, float("nan"), float("inf")):
+        with pytest.raises(ValueError, match="advance_until"):
+            run.advance_until(lambda: False, time)
+    with pytest.raises(ZeroDivisionError):
+        run.advance_until(lambda: 1 // 0 > 0, time=1.0)
+    run.step(3)
+    assert run.tick == 3

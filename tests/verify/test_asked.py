@@ -380,6 +380,26 @@ def test_what_is_redefined_and_then_shifted_in_one_tick_is_told_apart(before: st
     assert "another place" in _messages(_told(run.trace, "position=92.0", "position=92.1"))
 
 
+def test_an_additive_move_behind_a_redefinition_at_rest_counts_from_there_also_before_a_shift() -> None:
+    """The trace keeps the shift alone; the last commanded target is that of before the redefinition no more."""
+    run = _run()
+    x = run.axes["X"]
+    x.move_absolute(80.0)
+    run.step(600)
+    x.move_absolute(20.0)
+    run.step(100)
+    x.halt()
+    run.step(300)
+    x.define_position(0.0)
+    move = x.move_additive(50.0)
+    x.define_position(7.0, relative=True)
+    run.step(1000)
+    assert move.done
+    assert x.set_position == pytest.approx(57.0)
+    assert_valid(run.trace)
+    assert "another place" in _messages(_told(run.trace, "distance=50.0", "distance=50.1"))
+
+
 def test_only_what_was_held_before_a_joint_has_the_brake_of_the_one_behind() -> None:
     run, x = ready(software_limit_max=None)
     x.move_absolute(200.0, velocity=400.0, deceleration=300.0)

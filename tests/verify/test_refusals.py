@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from motionlayer import Machine, Simulation
 from motionlayer.record import Trace, TraceWriter
 from motionlayer.verify import TOLERANCES, assert_valid, verify
 
@@ -134,3 +135,14 @@ def test_a_plan_of_another_axis_changes_nothing() -> None:
     trace = recorded("mm")
     other = replace(trace.plans[1], axis="Z", pieces=np.ones((1, 5)))
     assert_valid(changed(trace, plans=(*trace.plans, other)))
+
+
+def test_the_trace_of_a_control_side_names_the_one_to_be_judged() -> None:
+    described = Machine.from_dict({"format": 1, "name": "c", "control": {"axes": ["X"]}})
+    with Simulation(described) as run:
+        run.step(3)
+        trace = run.trace
+    (reason,) = verify(trace).refused
+    assert reason.startswith(
+        "the machine is a control side, whose axes are in another machine: judge the trace of that"
+    )

@@ -1,6 +1,8 @@
 // An ADS client in C++, with Beckhoff's AdsLib: it switches an axis on by the motion layer and moves it by the NC port.
 //
-//   g++ -std=c++14 -I ADS/AdsLib client.cpp libads.a -lpthread -o client
+// With AdsLib from github.com/Beckhoff/ADS beside this file, and g++, clang++ or "python -m ziglang c++" as CXX:
+//
+//   $CXX -std=c++14 -DCONFIG_DEFAULT_LOGLEVEL=1 -I ADS/AdsLib -pthread -o client client.cpp ADS/AdsLib/{,standalone/}*.cpp
 //   ./client [host[:port]]
 
 #include "AdsLib.h"
@@ -76,9 +78,8 @@ template <typename T> AdsNotificationAttrib onChange()
 }
 }
 
-int main(int count, char **arguments)
+void move(const std::string &address)
 {
-	const std::string address = count > 1 ? arguments[1] : "127.0.0.1";
 	const AmsNetId server{ 127, 0, 0, 1, 1, 1 };
 	const AdsDevice plc{ address, server, PLC };
 	const AdsDevice nc{ address, server, NC };
@@ -101,12 +102,24 @@ int main(int count, char **arguments)
 	for (const double target : { 100.0, 250.0, 0.0 }) {
 		const EndPosition end{ 1, 0, target };
 		const auto refused = nc.WriteReqEx(FUNCTION_GROUP, NEW_END_POSITION, sizeof end, &end);
-		if (refused) {
-			std::printf("refused with 0x%X\n", static_cast<unsigned>(refused));
-			return 1;
-		}
+		if (refused)
+			throw AdsException{ refused };
 		position.until([target](double now) { return now == target; });
 		std::printf("position %.2f\n", target);
+	}
+}
+
+int main(int count, char **arguments)
+{
+	const std::string address = count > 1 ? arguments[1] : "127.0.0.1";
+	try {
+		move(address);
+	} catch (const AdsException &error) {
+		std::fprintf(stderr, "%s: ADS error 0x%X\n", address.c_str(), static_cast<unsigned>(error.errorCode));
+		return 1;
+	} catch (const std::exception &error) {
+		std::fprintf(stderr, "%s: %s\n", address.c_str(), error.what());
+		return 1;
 	}
 	return 0;
 }

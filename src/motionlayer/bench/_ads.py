@@ -4,7 +4,8 @@ The client is pyads, in a process of its own, and so is the server that it is co
 brings. Both hold the same variables. Round trips of ours and of the peer take turns on two connections of one client,
 so that whatever slows the computer down meets both.
 
-The peer answers out of a dictionary, in one thread per client; it publishes nothing and runs no cycle. With axes that
+The peer answers out of a dictionary, in one thread per client; it publishes nothing and runs no cycle. A write of ours
+goes on to the process of the run, and is answered once all variables have been published with it. With axes that
 move, it shares the cores with our cycle as our server does: a core that never sleeps wakes either of them sooner.
 """
 

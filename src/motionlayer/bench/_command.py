@@ -81,7 +81,9 @@ def start_warm(effort: Effort) -> Figure:
     with tempfile.TemporaryDirectory() as folder:
         machine = _short(Path(folder))
         seconds("run", machine, "--hash")
-        return Figure(statistics.median(seconds("run", machine, "--hash") for _ in range(effort.runs)))
+        taken = statistics.median(seconds("run", machine, "--hash") for _ in range(effort.runs))
+    compiles = "PYTHONDONTWRITEBYTECODE is set, so that every start compiles all sources"
+    return Figure(taken, compiles if sys.dont_write_bytecode else "")
 
 
 def start_cold(_effort: Effort) -> Figure:

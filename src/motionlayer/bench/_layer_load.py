@@ -58,6 +58,11 @@ def pair(changes: Mapping[str, Any]) -> Iterator[tuple[Simulation, Simulation]]:
 
 
 def layer_of(run: Simulation) -> MotionLayer:
+    """Return the motion layer of a run.
+
+    Raises:
+        Failed: it has none of its own.
+    """
     layer = run.layer
     if not isinstance(layer, MotionLayer):
         raise Failed("the machine commands a motion layer and has none")

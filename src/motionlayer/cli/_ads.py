@@ -21,13 +21,13 @@ def ads_of(machine: Machine, options: Options) -> AdsDescription | bool:
 
 
 def address(text: str) -> tuple[str | None, int | None]:
-    """Return host and port of `HOST`, `:PORT`, `HOST:PORT` or `[HOST]:PORT`; None for what is not given.
+    """Return host and port of `HOST`, `PORT`, `:PORT`, `HOST:PORT` or `[HOST]:PORT`; None for what is not given.
 
     Raises:
         BadParameter: the port is none.
     """
     host, colon, port = text.rpartition(":")
-    if not colon or port.endswith("]"):
+    if not (colon or port.isdecimal()) or port.endswith("]"):
         return text.strip("[]") or None, None
     if not port.isdecimal() or int(port) > 65_535:
         raise click.BadParameter(f"{text!r}: the port must be 0 to 65535, as in 127.0.0.1:48898", param_hint="--ads")
@@ -36,6 +36,6 @@ def address(text: str) -> tuple[str | None, int | None]:
 
 def lines(run: MachineRun) -> list[str]:
     """Return where clients reach a run."""
-    if not run.ads.serves:
+    if not run.serves_ads:
         return []
     return [f"{run.ads.host}:{run.ads.port}, NetId {run.ads.net_id}, port 851"]

@@ -13,11 +13,15 @@ from motionlayer.cli._options import machine_argument
 def check(machine: Path) -> None:
     """Check the file MACHINE completely; nothing runs.
 
-    Every problem is named with file, line, field, value and what is allowed.
+    Every problem is named with file, line, field, value and what is allowed. What is valid and can hardly be meant is a
+    warning.
     """
     from motionlayer.cli._files import load_machine  # noqa: PLC0415 - help does without it
+    from motionlayer.machine import doubtful  # noqa: PLC0415
 
     description = load_machine(machine).description
+    for one in doubtful(machine):
+        click.echo(f"Warning: {one}", err=True)
     axes, programs = list(description.axis), list(description.program)
     say(f"{machine}: valid: {description.name}, axes: {_names(axes)}; programs: {_names(programs)}")
 

@@ -45,10 +45,11 @@ def _bar(counts: Sequence[int], row: int) -> str:
 
 
 def overruns(found: Statistics) -> str:
-    """Return how often ticks were late, and how time slipped."""
+    """Return how often ticks were late, how time slipped, and how often the axes braked for it."""
     slips = {0: "time never slipped", 1: "time slipped once"}.get(found.slips, f"time slipped {found.slips} times")
     by = f", by {duration(found.slipped * 1e9)}" if found.slips else ""
-    return f"{found.overruns} of {found.lateness.count} ticks; {slips}{by}"
+    times = {0: "", 1: "; all axes braked once"}.get(found.brakes, f"; all axes braked {found.brakes} times")
+    return f"{found.overruns} of {found.lateness.count} ticks; {slips}{by}{times}"
 
 
 def slowest(found: Statistics) -> str:

@@ -1,29 +1,35 @@
 """`motionlayer error`."""
 
 import difflib
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import click
 
 from motionlayer.cli._exit import say
+from motionlayer.cli._numbers import ads_code, state
 
 if TYPE_CHECKING:
     from motionlayer.command import ErrorId
 
+NEAR: Final = 8
+"""Numbers that are no further apart may have been mistaken for one another."""
 
-@click.command(short_help="Explain errors by their id or name.")
+WAY_OUT: Final = "give 0x4225, 16933 or a name; docs/errors.md lists all"
+
+
+@click.command(short_help="Explain errors, ADS return codes and states.")
 @click.argument("errors", nargs=-1, required=True, metavar="ID...")
 def error(errors: tuple[str, ...]) -> None:
     """Explain what each ID means, what to do about it and what answers with it.
 
-    An ID is hexadecimal (0x4225), decimal (16933) or a name (BUFFER_FULL).
+    An ID is hexadecimal (0x4225), decimal (16933) or a name (BUFFER_FULL). ADS return codes (0x745) and states of the
+    motion layer (9012) are explained, too.
     """
-    known = [_known(text) for text in errors]
-    say("\n\n".join(_explained(one) for one in known))
+    say("\n\n".join([_explanation(text) for text in errors]))
 
 
-def _known(text: str) -> "ErrorId":
-    """Return the error that a text names.
+def _explanation(text: str) -> str:
+    """Return what an error, an ADS return code or a state means.
 
     Raises:
         click.BadParameter: there is none; names the nearest one.
@@ -32,26 +38,29 @@ def _known(text: str) -> "ErrorId":
 
     name = text.upper().replace("-", "_")
     if name in ErrorId.__members__:
-        return ErrorId[name]
+        return _explained(ErrorId[name])
     try:
         number = int(text, 0)
     except ValueError:
         near = difflib.get_close_matches(name, ErrorId.__members__, n=1)
-        hint = f"did you mean {near[0]}?" if near else "give 0x4225, 16933 or a name; docs/errors.md lists all"
+        hint = f"did you mean {near[0]}?" if near else WAY_OUT
         raise click.BadParameter(f"{text!r} is no error: {hint}") from None
     if number in ERRORS:
-        return ErrorId(number)
-    raise click.BadParameter(f"{text} is no error: did you mean {_nearest(text, number)}?")
+        return _explained(ErrorId(number))
+    told = ads_code(number) or state(number)
+    if not told:
+        raise click.BadParameter(f"{text} is no error: {_meant(text, number)}")
+    return told
 
 
-def _nearest(text: str, number: int) -> str:
-    """Return the error that was probably meant by a number: the same digits in hexadecimal, or the closest one."""
+def _meant(text: str, number: int) -> str:
+    """Return which error was probably meant by a number: the same digits in hexadecimal, or one close by."""
     from motionlayer.command import ERRORS, ErrorId  # noqa: PLC0415
 
     if text.isdecimal() and int(text, 16) in ERRORS:
-        return f"0x{text}, {ErrorId(int(text, 16)).name}"
+        return f"did you mean 0x{text}, {ErrorId(int(text, 16)).name}?"
     near = min(ErrorId, key=lambda one: abs(one - number))
-    return f"0x{near:04X}, {near.name}"
+    return f"did you mean 0x{near:04X}, {near.name}?" if abs(near - number) <= NEAR else WAY_OUT
 
 
 def _explained(one: "ErrorId") -> str:

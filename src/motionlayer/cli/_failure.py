@@ -5,26 +5,24 @@ import traceback
 from pathlib import Path
 from typing import Final
 
-from motionlayer.command import CommandAborted, CommandError
-from motionlayer.runtime import Program
+from motionlayer.runtime import Issuer, said
 
 PACKAGE: Final = Path(__file__).resolve().parent.parent
 STANDARD_LIBRARY: Final = sysconfig.get_path("stdlib")
 
 
-def program_failure(program: Program) -> str:
+def program_failure(program: Issuer) -> str:
     """Return what left a program, and from which line of its file."""
     failure = program.failure
-    said = f"{type(failure).__name__}: {failure}"
+    assert failure is not None
+    text = said(failure)
     if isinstance(failure, SystemExit):
-        said = f"sys.exit({failure.code}) was called; return instead"
-    elif isinstance(failure, CommandError | CommandAborted):
-        said = str(failure)
+        text = f"sys.exit({failure.code}) was called; return instead"
     elif isinstance(failure, BrokenPipeError):
-        said = "nobody reads what it writes any more, as behind `| head`"
+        text = "nobody reads what it writes any more, as behind `| head`"
     elif isinstance(failure, RuntimeError) and "no running event loop" in str(failure):
-        said += "; asyncio does not work in a program: await run.sleep(seconds), run.until(predicate) or a command"
-    return f"program {program.name}: {said}{place(failure)}"
+        text += "; asyncio does not work in a program: await run.sleep(seconds), run.until(predicate) or a command"
+    return f"program {program.name}: {text}{place(failure)}"
 
 
 def place(failure: BaseException | None) -> str:

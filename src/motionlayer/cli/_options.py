@@ -1,6 +1,7 @@
 """The options of `run`, those that other commands share with it, and what values must be where click has no type."""
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Final, NamedTuple
 
@@ -81,6 +82,21 @@ def page(_context: click.Context, _option: click.Parameter, value: Path | None) 
     if value is not None and value.suffix.lower() not in PAGE_SUFFIXES:
         raise click.BadParameter(f"{value}: a page is written as .html; save pictures from it in a browser")
     return value
+
+
+def json_file(what: str) -> Callable[[click.Context, click.Parameter, Path | None], Path | None]:
+    """Return what checks the name of a file that is written: its ending keeps a slip from overwriting a machine.
+
+    Args:
+        what: is written, for the message.
+    """
+
+    def checked(_context: click.Context, _option: click.Parameter, value: Path | None) -> Path | None:
+        if value is not None and value.suffix.lower() != ".json":
+            raise click.BadParameter(f"{value}: {what} is written as .json")
+        return value
+
+    return checked
 
 
 machine_argument = click.argument("machine", type=click.Path(path_type=Path))

@@ -6,19 +6,17 @@ from pathlib import Path
 import click
 
 from motionlayer.cli._exit import ExitCode, Stop, say
-
-
-def _json(_context: click.Context, _option: click.Parameter, value: Path | None) -> Path | None:
-    """Return a file for a schema; its name keeps a slip from overwriting a machine."""
-    if value is not None and value.suffix.lower() != ".json":
-        raise click.BadParameter(f"{value}: a schema is written as .json")
-    return value
+from motionlayer.cli._options import json_file
 
 
 @click.command(short_help="Write the JSON schema of the machine file, for editors.")
 @click.option("--module", is_flag=True, help="The schema of a module file.")
 @click.option(
-    "--out", type=click.Path(path_type=Path), callback=_json, metavar="FILE", help="Write it to FILE (.json)."
+    "--out",
+    type=click.Path(path_type=Path),
+    callback=json_file("a schema"),
+    metavar="FILE",
+    help="Write it to FILE (.json).",
 )
 def schema(module: bool, out: Path | None) -> None:
     """Print the JSON schema (draft 2020-12) of the machine file.

@@ -84,6 +84,7 @@ def _sources(machine: Machine, options: Options) -> list[Source]:
     if not sources and options.time is None and not _commanded(machine, options):
         raise click.UsageError(
             f"{options.machine} names no program, and the run would never end: give --program FILE[:NAME], or --time S"
+            + (", or --realtime, where ADS clients command it" if ads_of(machine, options) is not False else "")
         )
     return sources
 

@@ -1,44 +1,18 @@
 """`motionlayer soak`: its options."""
 
 from pathlib import Path
-from typing import NamedTuple
 
 import click
 
-from motionlayer.cli._options import machine_argument, program_option, realtime_option, seed_option, speed_option
-
-
-class SoakOptions(NamedTuple):
-    """What `motionlayer soak` was asked for.
-
-    Attributes:
-        machine: the machine file.
-        cycles: ticks of the run, > 0.
-        warm_up: ticks after which memory counts; None for a tenth.
-        program: `FILE[:NAME]`, in the place of the programs of the machine file.
-        seed: in the place of the seed of the machine file.
-        realtime: in the time of a clock.
-        speed: times real time; only with `realtime`.
-        trace: file for the trace, whose end is judged.
-        report: file for the report.
-    """
-
-    machine: Path
-    cycles: int
-    warm_up: int | None
-    program: str | None
-    seed: int | None
-    realtime: bool
-    speed: float | None
-    trace: Path | None
-    report: Path | None
-
-
-def _json(_context: click.Context, _option: click.Parameter, value: Path | None) -> Path | None:
-    """Return a file for a report; its name keeps a slip from overwriting a machine."""
-    if value is not None and value.suffix.lower() != ".json":
-        raise click.BadParameter(f"{value}: a report is written as .json")
-    return value
+from motionlayer.cli._options import (
+    json_file,
+    machine_argument,
+    program_option,
+    realtime_option,
+    seed_option,
+    speed_option,
+)
+from motionlayer.cli._soak_options import SoakOptions
 
 
 @click.command(short_help="Run a machine for long; report memory, drift, lateness.")
@@ -63,7 +37,7 @@ def _json(_context: click.Context, _option: click.Parameter, value: Path | None)
 @click.option(
     "--report",
     type=click.Path(path_type=Path),
-    callback=_json,
+    callback=json_file("a report"),
     metavar="FILE",
     help="Write the report to FILE (.json).",
 )

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from motionlayer.cli._distribution import histogram, overruns, slowest, spread, task
 from motionlayer.cli._exit import ExitCode, Stop
 from motionlayer.cli._memory import Growth
-from motionlayer.cli._soak import SoakOptions
+from motionlayer.cli._soak_options import SoakOptions
 from motionlayer.cli._summary import lines_of
 from motionlayer.cli._tally import Tally
 from motionlayer.event import Event, Level
@@ -134,6 +134,7 @@ def as_json(report: Soaked) -> dict[str, Any]:
     if report.options.realtime:
         values["lateness"] = found.lateness.spread._asdict()
         values |= {"drift": report.drift, "overruns": found.overruns, "slips": found.slips, "slipped": found.slipped}
+        values["brakes"] = found.brakes
     return values
 
 

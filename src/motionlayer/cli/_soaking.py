@@ -15,7 +15,7 @@ from motionlayer.cli._memory import MemoryWatch
 from motionlayer.cli._options import require_clock
 from motionlayer.cli._programs import chosen, give_up, load
 from motionlayer.cli._progress import Progress
-from motionlayer.cli._soak import SoakOptions
+from motionlayer.cli._soak_options import SoakOptions
 from motionlayer.cli._soak_report import Soaked, SoakTally, lines, write
 from motionlayer.machine import (
     Loaded,

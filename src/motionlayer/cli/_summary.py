@@ -5,8 +5,7 @@ from typing import Final
 
 from motionlayer.cli._distribution import histogram, overruns, slowest, spread, task
 from motionlayer.cli._options import Options
-from motionlayer.cli._tally import Tally
-from motionlayer.event import Event, Level, Subdevice
+from motionlayer.cli._tally import KEPT, Tally
 from motionlayer.machine import MachineRun, RealTime
 from motionlayer.nc import Axis
 
@@ -75,26 +74,16 @@ def _programs(tally: Tally) -> list[str]:
 
 
 def _messages(tally: Tally, cycle: float) -> Iterator[str]:
-    if not tally.last:
+    """Yield how many there were, and the last ones: a flood of warnings never hides an error."""
+    counts, entries = tally.said.counts, tally.said.entries()[:KEPT]
+    if not entries:
         return
-    counts = [_counted(tally.levels[level], level.name.lower()) for level in (Level.ERROR, Level.WARNING)]
-    shown = f"; the last {len(tally.last)}:" if tally.levels.total() > len(tally.last) else ":"
-    yield ", ".join(counts) + shown
-    for event in tally.last:
-        yield f"  {event.tick * cycle:.6f} s  {event.level.name.lower()}  {_told(event)}"
-
-
-def _told(event: Event) -> str:
-    """Return who says what.
-
-    Messages of the motion layer that say nothing, or begin with a colon, go on from the columns of a message file:
-    subdevice and number stand beside them here.
-    """
-    text = event.text.lstrip(" :")
-    if text and text == event.text:
-        return text if text.startswith(event.source) else f"{event.source}: {text}"
-    part = Subdevice(event.subdevice).name if event.subdevice in Subdevice._value2member_map_ else event.subdevice
-    return " ".join(filter(None, (f"{event.source}: {part}", text, f"[0x{event.code:04X}]" if event.code else "")))
+    listed = sum(entry.times + entry.others for entry in entries)
+    shown = f"; the last {len(entries)}:" if sum(counts.values()) > listed else ":"
+    yield ", ".join(_counted(number, level.name.lower()) for level, number in counts.items()) + shown
+    for entry in entries:
+        event = entry.event
+        yield f"  {event.tick * cycle:.6f} s  {event.level.name.lower()}  {entry.line(cycle)}"
 
 
 def _counted(number: int, what: str) -> str:

@@ -5,6 +5,7 @@ the hash of a run: they hold ticks, never wall-clock time.
 """
 
 from motionlayer.event._device import BLOCK, Device, device_of
+from motionlayer.event._digest import Digest, Entry, told
 from motionlayer.event._event import Event, EventLog, Kind, Level
 from motionlayer.event._input import Input
 from motionlayer.event._levels import Levels
@@ -14,6 +15,8 @@ from motionlayer.event._subdevice import Subdevice
 __all__ = [
     "BLOCK",
     "Device",
+    "Digest",
+    "Entry",
     "Event",
     "EventLog",
     "Input",
@@ -26,4 +29,5 @@ __all__ = [
     "device_of",
     "list_of",
     "text_of",
+    "told",
 ]

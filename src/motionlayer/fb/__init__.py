@@ -29,16 +29,13 @@ from motionlayer.fb._parameter_numbers import MC_AxisParameter
 from motionlayer.fb._parameters import PARAMETERS
 from motionlayer.fb._power import MC_Power, MC_Reset, MC_SetOverride
 from motionlayer.fb._reading import MC_ReadActualPosition, MC_ReadActualVelocity, MC_ReadAxisError, MC_ReadStatus
+from motionlayer.fb._reference_modes import HOMING_METHODS, E_EncoderReferenceMode
 from motionlayer.fb._referencing import (
     DEFAULT_HOME_POSITION,
-    E_EncoderReferenceMode,
     MC_Home,
     MC_SetPosition,
     ST_HomingOptions,
     ST_SetPositionOptions,
-)
-from motionlayer.fb._referencing import (
-    METHODS as HOMING_METHODS,
 )
 from motionlayer.fb._status import ST_AxisStatus
 from motionlayer.nc import AxisState as MC_AxisStates

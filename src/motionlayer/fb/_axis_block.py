@@ -1,5 +1,6 @@
 """Blocks of one axis."""
 
+import abc
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, cast
 
 from motionlayer.command import Command, ErrorId
@@ -90,9 +91,8 @@ class EnableBlock(OfAxis):
         if self.Enable:
             trouble = self._act()
             self.Valid = trouble is None
-            if (
-                trouble is not None and trouble.error != self.ErrorID
-            ):  # a message tells it once, the outputs in every call
+            # A message tells it once, the outputs in every call.
+            if trouble is not None and trouble.error != self.ErrorID:
                 self._axis.refuse(self.METHOD, *trouble)
             self._show_error(None if trouble is None else trouble.error)
         elif self.Valid or self.Error:
@@ -100,9 +100,9 @@ class EnableBlock(OfAxis):
             self._show_error(None)
             self._clear()
 
+    @abc.abstractmethod
     def _act(self) -> Trouble | None:
         """Do the work of one call, or tell why it cannot be done."""
-        raise NotImplementedError
 
     def _clear(self) -> None:
         """Take the outputs back."""

@@ -1,10 +1,9 @@
 """`AXIS_REF`: an axis as the blocks know it, with its cyclic interface."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-import numpy as np
-
+from motionlayer.fb._image import Image
 from motionlayer.fb._settings import Settings
 from motionlayer.fb._status import ST_AxisStatus, status_of
 
@@ -14,32 +13,6 @@ if TYPE_CHECKING:
 
 Keep = Callable[[str, str, float], str]
 """Keeps a parameter, given axis, name and value; returns why that was not possible, "" if it was."""
-
-
-class Image:
-    """One element of the cyclic interface: its fields are attributes with the names of the interface.
-
-    Reading gives numbers of Python; writing is for the side that owns the direction.
-    """
-
-    __slots__ = ("_record",)
-
-    _record: np.ndarray[Any, Any]
-
-    def __init__(self, record: np.ndarray[Any, Any]) -> None:
-        object.__setattr__(self, "_record", record)
-
-    def __getattr__(self, name: str) -> Any:  # noqa: ANN401 - of the type of the field
-        try:
-            return self._record[name].tolist()
-        except ValueError:
-            raise AttributeError(f"no field {name}; there are {', '.join(self._record.dtype.names or ())}") from None
-
-    def __setattr__(self, name: str, value: object) -> None:
-        try:
-            self._record[name] = value
-        except ValueError:
-            raise AttributeError(f"no field {name}; there are {', '.join(self._record.dtype.names or ())}") from None
 
 
 class AXIS_REF:  # noqa: N801 - the name of the interface

@@ -4,59 +4,18 @@ A block is an object that a program calls once per cycle, with the inputs that c
 moves anything itself: it issues commands of an axis and shows what becomes of them, so that a call more or less in a
 cycle changes no motion.
 
-A block that commands is in one of the phases of `Phase`. A rising edge of Execute begins, the end of the command
-concludes, and what it concluded with is shown as long as Execute is TRUE, but in one call at least:
-
-    ========= ================= ============================ ==========================================
-    phase     at a call         next                         action
-    ========= ================= ============================ ==========================================
-    IDLE      rising edge       BUSY, or ERROR if refused     latch the inputs, issue the command
-    BUSY      command ended     DONE, ABORTED or ERROR        show it; an edge in this call is swallowed
-    BUSY      rising edge       BUSY                          none: a running command is never replaced
-    DONE ...  Execute FALSE     IDLE                          clear the outputs
-    DONE ...  rising edge       BUSY, or ERROR if refused     as from IDLE
-    ========= ================= ============================ ==========================================
-
 A busy block has to be called in every turn of its task. If it was not, and its command was aborted meanwhile, it cannot
 have told anybody in time: that is error 0x4B66. Source of the rules: function-blocks 1.4.
 """
 
+import abc
 import difflib
-import enum
 from collections.abc import Iterable
 from typing import Any, ClassVar, Final
 
 from motionlayer.command import Command, ErrorId, Ledger, MotionError
 from motionlayer.fb._inputs import Input, boolean
-
-
-class Phase(enum.Enum):
-    """Where a block that commands is."""
-
-    IDLE = "idle"
-    BUSY = "busy"
-    DONE = "done"
-    ABORTED = "aborted"
-    ERROR = "error"
-
-
-NEXT: Final[dict[Phase, frozenset[Phase]]] = {
-    Phase.IDLE: frozenset({Phase.BUSY, Phase.ERROR}),
-    Phase.BUSY: frozenset({Phase.DONE, Phase.ABORTED, Phase.ERROR}),
-    Phase.DONE: frozenset({Phase.IDLE, Phase.BUSY, Phase.ERROR}),
-    Phase.ABORTED: frozenset({Phase.IDLE, Phase.BUSY, Phase.ERROR}),
-    Phase.ERROR: frozenset({Phase.IDLE, Phase.BUSY, Phase.ERROR}),
-}
-"""What may follow a phase; a block that does anything else is broken."""
-
-SHOWN: Final[dict[Phase, tuple[bool, bool, bool]]] = {
-    Phase.IDLE: (False, False, False),
-    Phase.BUSY: (True, False, False),
-    Phase.DONE: (False, True, False),
-    Phase.ABORTED: (False, False, True),
-    Phase.ERROR: (False, False, False),
-}
-"""Busy, Done and CommandAborted in each phase; Error and ErrorID come with what went wrong."""
+from motionlayer.fb._phase import NEXT, SHOWN, Phase
 
 FIRST: Final = ("Axis", "Execute", "Enable")
 """Inputs that stand before all others."""
@@ -80,7 +39,7 @@ class Calls:
         self.turn = ledger.turn
 
 
-class Built(type):
+class Built(abc.ABCMeta):
     """Kind of a class whose objects are complete once they have been built: no attribute can be added after that."""
 
     def __call__(cls, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401 - as the class itself
@@ -100,7 +59,7 @@ class Block(metaclass=Built):
         HIDDEN: outputs that every block has and this one never sets.
         Busy: the block is at work.
         Error: something was refused or went wrong.
-        ErrorID: what; see `motionlayer.command.ERRORS`.
+        ErrorID: what: 0, or a number of `ErrorId`.
     """
 
     INPUTS: ClassVar[dict[str, Input]] = {}
@@ -141,8 +100,15 @@ class Block(metaclass=Built):
             self.__dict__.update(inputs)
         self._call()
 
+    def __repr__(self) -> str:
+        usual = {name: kind() for name, kind in self._STRUCTURES.items()}
+        fields = [(name, value) for name, value in vars(self).items() if value and not name.startswith("_")]
+        shown = [f"{name}={value}" for name, value in fields if value != usual.get(name)]
+        return f"<{' '.join([type(self).__name__, *shown])}>"
+
+    @abc.abstractmethod
     def _call(self) -> None:
-        raise NotImplementedError
+        """Do the work of one call."""
 
     def _unknown(self, wrong: Iterable[str]) -> str:
         """Return the text of an error about inputs that there are not."""
@@ -194,9 +160,9 @@ class CommandBlock(Block):
         if execute is not self._edge:  # a busy block writes nothing that stays as it is
             self._edge = execute
 
+    @abc.abstractmethod
     def _issue(self) -> Command[Any]:
         """Give the command."""
-        raise NotImplementedError
 
     def _begin(self) -> None:
         """Issue the command; whatever it comes to, it is busy for one call at least, unless it is refused."""

@@ -5,9 +5,9 @@ from typing import Any
 from motionlayer import nc
 from motionlayer.command import Command, ErrorId
 from motionlayer.fb._axis_block import AxisBlock
-from motionlayer.fb._block import Phase
-from motionlayer.fb._inputs import enumeration, lreal, member_of, structure
+from motionlayer.fb._inputs import BUFFER_MODES, buffer_mode_of, enumeration, lreal, structure
 from motionlayer.fb._moves import ST_MoveOptions
+from motionlayer.fb._phase import Phase
 
 
 class MC_Halt(AxisBlock):  # noqa: N801 - here and below, names of PLCopen
@@ -19,9 +19,9 @@ class MC_Halt(AxisBlock):  # noqa: N801 - here and below, names of PLCopen
     Options = structure(ST_MoveOptions, "blending position; whether the window is waited for")
 
     def _issue(self) -> Command[Any]:
-        mode, options = member_of(nc.BufferMode, self.BufferMode), self.Options
+        mode, options = buffer_mode_of(self.BufferMode), self.Options
         if mode is None:
-            return self._refuse("halt", ErrorId.BUFFER_MODE, "BufferMode", "0 to 5")
+            return self._refuse("halt", ErrorId.BUFFER_MODE, "BufferMode", BUFFER_MODES)
         return self._axis.halt(
             deceleration=positive(self.Deceleration),
             jerk=positive(self.Jerk),

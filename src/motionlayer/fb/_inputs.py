@@ -20,6 +20,17 @@ NAMES: Final[dict[type[enum.IntEnum], str]] = {
 }
 """Enumerations with the names of the interface."""
 
+COMPILED_BUFFER_MODES: Final = {
+    18: nc.BufferMode.BLENDING_LOW,
+    19: nc.BufferMode.BLENDING_PREVIOUS,
+    20: nc.BufferMode.BLENDING_NEXT,
+    21: nc.BufferMode.BLENDING_HIGH,
+}
+"""Numbers that `MC_BufferMode` has in the compiled libraries and on the interface of the motion layer; taken too."""
+
+BUFFER_MODES: Final = "0 to 5, 18 to 21"
+"""Numbers that are taken, for messages."""
+
 E = TypeVar("E", bound=enum.IntEnum)
 S = TypeVar("S")
 
@@ -89,3 +100,13 @@ def member_of(kind: type[E], value: int) -> E | None:
         return kind(value)
     except ValueError:
         return None
+
+
+def buffer_mode_of(value: int) -> nc.BufferMode | None:
+    """Return the buffer mode with a number of either kind, None if there is none.
+
+    Raises:
+        TypeError: it is not an integer.
+    """
+    member = member_of(nc.BufferMode, value)
+    return COMPILED_BUFFER_MODES.get(value) if member is None else member

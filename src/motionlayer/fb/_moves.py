@@ -1,5 +1,6 @@
 """Blocks that move an axis (function-blocks 2.7)."""
 
+import abc
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypedDict
 
@@ -7,7 +8,7 @@ from motionlayer import nc
 from motionlayer.command import Command, ErrorId
 from motionlayer.fb._axis_block import AxisBlock
 from motionlayer.fb._axis_ref import AXIS_REF
-from motionlayer.fb._inputs import enumeration, lreal, member_of, structure
+from motionlayer.fb._inputs import BUFFER_MODES, buffer_mode_of, enumeration, lreal, member_of, structure
 
 
 @dataclass(slots=True)
@@ -50,14 +51,14 @@ class Motion(AxisBlock):
     """Method of the axis that it stands for."""
 
     def _issue(self) -> Command[Any]:
-        mode = member_of(nc.BufferMode, self.BufferMode)
+        mode = buffer_mode_of(self.BufferMode)
         if mode is None:
-            return self._refuse(self.METHOD, ErrorId.BUFFER_MODE, "BufferMode", "0 to 5")
+            return self._refuse(self.METHOD, ErrorId.BUFFER_MODE, "BufferMode", BUFFER_MODES)
         return self._move(mode, self._dynamics())
 
+    @abc.abstractmethod
     def _move(self, mode: nc.BufferMode, dynamics: Dynamics) -> Command[Any]:
         """Give the command."""
-        raise NotImplementedError
 
     def _dynamics(self) -> Dynamics:
         options = self.Options
@@ -137,9 +138,9 @@ class Endless(Motion):
         super()._watch()
         self._show_goal(self._command)
 
+    @abc.abstractmethod
     def _show_goal(self, command: nc.AxisCommand | None) -> None:
         """Show whether the goal of the command, which may have ended, is reached."""
-        raise NotImplementedError
 
 
 class MC_MoveVelocity(Endless):  # noqa: N801

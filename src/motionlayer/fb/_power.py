@@ -8,14 +8,15 @@ from motionlayer.command import Command, ErrorId
 from motionlayer.fb._axis_block import AxisBlock, EnableBlock, OfAxis, Trouble
 from motionlayer.fb._axis_ref import AXIS_REF
 from motionlayer.fb._helpers import FULL
-from motionlayer.fb._inputs import boolean, enumeration, lreal, member_of, real
+from motionlayer.fb._inputs import BUFFER_MODES, boolean, buffer_mode_of, enumeration, lreal, real
 
 
 class MC_Power(OfAxis):  # noqa: N801 - here and below, names of PLCopen
     """Switch the controller of an axis on and off, release its directions, set its override.
 
     What the inputs ask for is compared with the axis in every call: power that an error has taken away comes back after
-    a reset, as long as Enable is TRUE. What the axis refuses is asked again when its state has changed.
+    a reset, as long as Enable is TRUE. What the axis refuses is asked again when its state has changed. An axis in
+    Stopping is asked once it has come to rest: Enable is a level, and no error while it cannot be followed yet.
 
     Attributes:
         Status: the axis is ready.
@@ -44,7 +45,8 @@ class MC_Power(OfAxis):  # noqa: N801 - here and below, names of PLCopen
         axis, enable = ref.axis, bool(self.Enable)
         asked = enable, enable and bool(self.Enable_Positive), enable and bool(self.Enable_Negative)
         error = self._set_override(ref) if enable else None
-        if asked != self._given or (enable and not axis.power_requested and axis.error is None):
+        differs = asked != self._given or (enable and not axis.power_requested and axis.error is None)
+        if differs and not (enable and axis.state is nc.AxisState.STOPPING):
             self._ask(ref, asked)
         if self._refused is not None:
             error = self._refused[0]
@@ -70,9 +72,11 @@ class MC_Power(OfAxis):  # noqa: N801 - here and below, names of PLCopen
         ref.PlcToNc.ControlDWord = kept | bits | nc.ControlDWord.FeedEnableMinus * negative
 
     def _disable(self, axis: nc.Axis) -> nc.AxisCommand:
-        mode = member_of(nc.BufferMode, self.BufferMode)
+        mode = buffer_mode_of(self.BufferMode)
         if mode is None:
-            return axis.refuse("disable", ErrorId.BUFFER_MODE, f"BufferMode = {self.BufferMode}, allowed: 0 to 5")
+            return axis.refuse(
+                "disable", ErrorId.BUFFER_MODE, f"BufferMode = {self.BufferMode}, allowed: {BUFFER_MODES}"
+            )
         return axis.disable(buffer_mode=mode)
 
     def _set_override(self, ref: AXIS_REF) -> ErrorId | None:

@@ -1,7 +1,5 @@
 """MC_Home and MC_SetPosition (function-blocks 2.3, 2.10)."""
 
-import enum
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -10,47 +8,14 @@ from motionlayer.command import Command, ErrorId
 from motionlayer.fb._axis_block import AxisBlock
 from motionlayer.fb._axis_ref import AXIS_REF
 from motionlayer.fb._inputs import boolean, enumeration, lreal, member_of, structure
+from motionlayer.fb._reference_modes import HOMING_METHODS, E_EncoderReferenceMode
 
 DEFAULT_HOME_POSITION: Final = 1.7e308
 """Stands for the reference position of the machine description."""
 
 
-class E_EncoderReferenceMode(enum.IntEnum):  # noqa: N801 - here and below, names of the interface
-    """What the reference is, once the cam was found."""
-
-    DEFAULT = 0
-    """What the machine description says."""
-    PLCCAM = 1
-    """The edge at which the axis leaves the cam."""
-    HARDWARESYNC = 2
-    """The zero pulse behind it."""
-    HARDWARELATCHPOS = 3
-    """The rising edge of the latch input behind it, caught by hardware."""
-    HARDWARELATCHNEG = 4
-    """The falling one."""
-    SOFTWARESYNC = 5
-    """The overflow of the encoder's count behind it."""
-    SOFTDRIVELATCHPOS = 6
-    """The rising edge of the latch input behind it, as the program of the drive sees it."""
-    SOFTDRIVELATCHNEG = 7
-    """The falling one."""
-
-
-METHODS: Final[Mapping[E_EncoderReferenceMode, nc.HomingMode | None]] = {
-    E_EncoderReferenceMode.DEFAULT: None,
-    E_EncoderReferenceMode.PLCCAM: nc.HomingMode.CAM,
-    E_EncoderReferenceMode.HARDWARESYNC: nc.HomingMode.INDEX,
-    E_EncoderReferenceMode.HARDWARELATCHPOS: nc.HomingMode.LATCH_POSITIVE,
-    E_EncoderReferenceMode.HARDWARELATCHNEG: nc.HomingMode.LATCH_NEGATIVE,
-    E_EncoderReferenceMode.SOFTWARESYNC: nc.HomingMode.SOFTWARE_SYNC,
-    E_EncoderReferenceMode.SOFTDRIVELATCHPOS: nc.HomingMode.SOFT_LATCH_POSITIVE,
-    E_EncoderReferenceMode.SOFTDRIVELATCHNEG: nc.HomingMode.SOFT_LATCH_NEGATIVE,
-}
-"""How the axis homes in each reference mode; None: as the machine file says."""
-
-
 @dataclass(slots=True)
-class ST_HomingOptions:  # noqa: N801
+class ST_HomingOptions:  # noqa: N801 - here and below, names of the interface
     """Options of MC_Home.
 
     Attributes:
@@ -134,7 +99,7 @@ class MC_Home(AxisBlock):  # noqa: N801
         return self._axis.home(
             None if self.Position == DEFAULT_HOME_POSITION else self.Position,
             mode,
-            method=METHODS[reference],
+            method=HOMING_METHODS[reference],
             search_direction=search,
             search_velocity=options.SearchVelocity or None,
             sync_direction=sync,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Final
 from motionlayer.nc import AxisState, OpModeDWord, StateDWord
 
 if TYPE_CHECKING:
-    from motionlayer.fb._axis_ref import Image
+    from motionlayer.fb._image import Image
 
 ACCELERATING: Final = 4
 DECELERATING: Final = 5

@@ -4,7 +4,7 @@ import operator
 from collections.abc import Iterator, Sequence
 from itertools import product
 from math import prod
-from typing import Final, TypeAlias
+from typing import ClassVar, Final, TypeAlias
 
 Index: TypeAlias = int | tuple[int, ...]
 
@@ -25,6 +25,8 @@ class Bounds:
     """
 
     __slots__ = ("count", "pairs", "shape")
+
+    UNCHANGING: ClassVar = True
 
     def __init__(self, pairs: Sequence[tuple[int, int]]) -> None:
         for pair in pairs:

@@ -7,7 +7,7 @@ its lowest bit; after eight, or after any other member, a new byte begins. All m
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, ClassVar, Final
 
 import numpy as np
 
@@ -31,6 +31,8 @@ class Member:
         comment: what it means.
         default: its declared start value, None for the one of the type.
     """
+
+    UNCHANGING: ClassVar = True
 
     attribute: str
     name: str

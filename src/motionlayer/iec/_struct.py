@@ -8,7 +8,7 @@ view, of memory of its own if it is not made on other.
 
 import difflib
 from collections.abc import Sequence
-from typing import Any, ClassVar, NoReturn, Self
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self
 
 import numpy as np
 
@@ -66,6 +66,12 @@ class Struct(Compound, metaclass=StructMeta):
         if guard is not None:
             guard()
         put(self, checked)
+
+    if not TYPE_CHECKING:  # there, an attribute that is not declared is an error already
+
+        def __getattr__(self, name: str) -> NoReturn:
+            """Refuse to read what is no member; called where nothing else is found."""
+            self._refuse(name)
 
     def __delattr__(self, name: str) -> NoReturn:
         raise AttributeError(f"{type(self).__name__}.{name}: a member cannot be deleted")

@@ -3,7 +3,7 @@
 import struct
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Final, Generic, TypeAlias, TypeVar
+from typing import Any, ClassVar, Final, Generic, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -36,6 +36,9 @@ class IecType(ABC, Generic[Got, Put]):
             may lower that.
         dtype: the NumPy type with the same bytes.
     """
+
+    UNCHANGING: ClassVar = True
+    """A snapshot of a run leaves types out."""
 
     name: str
     size: int

@@ -2,11 +2,14 @@
 
 import enum
 from collections.abc import Callable
-from typing import Any, Final, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol
 
 from motionlayer.command import ERRORS, Command, CommandError, ErrorId, MotionError
 from motionlayer.layer.types._commands import NO_INIT, AxisCommand
 from motionlayer.layer.types._progress import Progress
+
+if TYPE_CHECKING:
+    from motionlayer.layer._exchange import Exchange
 
 BLOCK: Final = 1000
 """Numbers of a progress: its base, and the commands behind it."""
@@ -48,9 +51,10 @@ class LayerError(CommandError):
         error_id: number of the error, 0 without one.
     """
 
-    def __init__(self, wait: "StateWait", text: str, state: int, error_id: int) -> None:
-        Exception.__init__(self, text)
-        self.command, self.state, self.error_id = wait, state, error_id
+    def __init__(self, wait: "StateWait", error: MotionError, text: str, *, state: int, error_id: int) -> None:
+        super().__init__(wait, error)
+        self.args = (text,)
+        self.state, self.error_id = state, error_id
 
 
 class Pair(Protocol):
@@ -58,6 +62,7 @@ class Pair(Protocol):
 
     name: str
     commands: type[enum.IntEnum]
+    exchange: "Exchange | None"
 
     @property
     def asked(self) -> int:
@@ -75,9 +80,6 @@ class Pair(Protocol):
 class StateWait(Command[int]):
     """Wait until a state shows that a command is done; the result is the state.
 
-    Until the state shows the command at all, the one shown at the beginning is taken for that of an earlier command, as
-    long as the command field still asks for this one.
-
     Args:
         pair: the object.
         command: which command.
@@ -88,32 +90,35 @@ class StateWait(Command[int]):
         super().__init__(f"{pair.name}: {shown}")
         self._pair = pair
         self._wanted = command
-        self._before = pair.code
+        self._number = 0 if pair.exchange is None else pair.exchange.number(pair.asked)
         self._why = ""
-        self._code = 0
+        self._code = self._error_id = 0
         self.activate()
 
     def look(self) -> None:
         """Take up what the state shows."""
         code = self._pair.code
         command, progress = split(code, self._pair.commands)
-        if command == self._wanted or (command == NO_INIT and code != self._before):
+        later = self._later()
+        if later == 0 and command in (self._wanted, NO_INIT):
             if progress == Progress.DONE:
                 self.finish(code)
             elif progress in _BAD:
                 self._give_up(code, f"the state is {code}, {_named(progress)}")
-        elif code != self._before or self._pair.asked != self._wanted:
+        elif later > 0 or self._pair.asked != self._wanted:
             self._give_up(code, f"another command has taken its place, the state is {code}")
+
+    def _later(self) -> int:
+        """Return how many commands later the one is that the state answers; less than 0 for an earlier one."""
+        exchange = self._pair.exchange
+        return 0 if exchange is None else exchange.answered - self._number
 
     def _give_up(self, code: int, why: str) -> None:
         number = self._pair.error_id
         known = ErrorId(number) if number in ERRORS else None
         self._why = f"{why}{f'; error 0x{number:04X}' if number else ''}{f', {ERRORS[known].text}' if known else ''}"
-        self._code = code
-        if known is None:
-            self.abort()
-        else:
-            self.fail(MotionError(known, self._pair.name, f"state {code}"))
+        self._code, self._error_id = code, number
+        self.fail(MotionError(known or ErrorId.COMMAND_NOT_DONE, self._pair.name, f"state {code}"))
 
     @property
     def result(self) -> int:
@@ -123,8 +128,9 @@ class StateWait(Command[int]):
             LayerError: the command has not come to DONE.
             RuntimeError: it is still under way.
         """
-        if self._why:
-            raise LayerError(self, f"{self.name}: {self._why}", self._code, self._pair.error_id)
+        if self.error is not None:
+            text = f"{self.name}: {self._why}"
+            raise LayerError(self, self.error, text, state=self._code, error_id=self._error_id)
         return super().result
 
 
@@ -161,7 +167,13 @@ class ObjectState:
         view: the structure with the field `state`.
         error_id: returns the number of the error.
         waits: of the layer.
+
+    Attributes:
+        exchange: what has gone out and come back, where the layer is in another machine; None beside the layer, whose
+            states answer what the command field holds in the same cycle.
     """
+
+    exchange: "Exchange | None" = None
 
     def __init__(
         self,
@@ -201,7 +213,8 @@ class ObjectState:
     def done(self, command: int) -> StateWait:
         """Return what can be awaited until a command is done; write the command field before.
 
-        Awaiting it raises LayerError where the command ends in error, does not exist, or is replaced.
+        It is the command that the field holds now: what the state shows of an earlier one with the same number does not
+        count. Awaiting it raises LayerError where the command ends in error, does not exist, or is replaced.
 
         Raises:
             ValueError: no state has room for the number of the command.

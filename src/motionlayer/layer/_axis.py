@@ -37,6 +37,10 @@ class AxisController(Controller):
         place: of the axis among all, from 0.
     """
 
+    __slots__ = (
+        "_ctrl", "_errors", "_flags", "_port", "_state", "_unknown", "initialised", "memory", "place",
+    )  # fmt: skip
+
     def __init__(
         self, port: AxisPort, objects: AxisObject, flags: NDArray[np.int64], errors: NDArray[np.int64]
     ) -> None:

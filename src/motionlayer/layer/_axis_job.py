@@ -65,10 +65,17 @@ class AxisJob(Job):
         attempts: of AXIS_IDLE.
         start: actual position at the start, u.
         latched: set values with which the running motion was commanded.
+        told: buffered motion whose arrival was told last.
+        no_target: the position in the data stands for one that was not finite.
         parameter: number and value that were asked for with the command.
         cam: calibration signal as told last.
         switches_written: a client writes the limit switches.
     """
+
+    __slots__ = (
+        "attempts", "axis", "cam", "command", "error", "inputs", "latched", "name", "no_target", "parameter", "port",
+        "start", "switches_written", "timed_out", "told",
+    )  # fmt: skip
 
     def __init__(self, port: AxisPort, inputs: "AxisObject") -> None:
         super().__init__(NOTHING, port.ref.axis.ledger)
@@ -82,6 +89,8 @@ class AxisJob(Job):
         self.attempts = 0
         self.start = 0.0
         self.latched: tuple[float, ...] = ()
+        self.told: Command[Any] | None = None
+        self.no_target = False
         self.parameter = 0, 0.0
         self.cam = False
         self.switches_written = False
@@ -167,6 +176,12 @@ def time_out(part: Subdevice, text: str = FAILED) -> "Callable[[AxisJob], None]"
         job.tell(Level.ERROR, part, text, job.error)
 
     return give_up
+
+
+def tell_held(job: AxisJob) -> None:
+    """Warn once that a motion was taken which does not begin, since the override is 0."""
+    if job.axis.override == 0.0 and job.command is not None and job.command.error is None:
+        job.tell(Level.WARNING, Subdevice.AxisControl, "held by rOverride = 0 %; it begins when rOverride is raised")
 
 
 def say(level: Level, part: Subdevice, text: str) -> "Callable[[AxisJob], None]":

@@ -11,6 +11,9 @@ from motionlayer.layer.types import MAX_MOTION_FUNCTION_POINTS, MAX_R_PARA, MAX_
 VERSION: Final = "V 01.01.00"
 """Of the interface."""
 
+PLACEHOLDERS: Final = 1
+"""Stations, movers and processes of the sister project: MAX_STATION, MAX_MOVER, MAX_PROCESS."""
+
 _NCI_DIRS: Final = ("/usr/local/etc/TwinCAT/Mc/Nci/", "C:\\TwinCAT\\Mc\\Nci\\")
 _LOG_DIRS: Final = ("/usr/local/etc/TwinCAT/#MsgFiles/", "C:\\TwinCAT\\#MsgFiles\\")
 """Of BSD and of Windows."""
@@ -29,6 +32,7 @@ class Sizes:
         max_r_para: index of the last R parameter of a structure.
         max_motion_function_points: points of a motion function.
         max_message: slots of a message list, `GVL_MSG_AXIS.MAX_MESSAGE`.
+        max_other_message: slots of a list that nobody writes, `GVL_MSG.MAX_MESSAGE`.
         max_retry: how often AXIS_IDLE begins again.
     """
 
@@ -40,6 +44,7 @@ class Sizes:
     max_r_para: int = MAX_R_PARA
     max_motion_function_points: int = MAX_MOTION_FUNCTION_POINTS
     max_message: int = 200
+    max_other_message: int = 20
     max_retry: int = 5
 
 
@@ -70,7 +75,8 @@ class Features:
 def constants(sizes: Sizes, features: Features) -> Iterator[Constant]:
     """Yield the list PLC_CONSTANT; its members are reached without the name of the list too."""
     number, text = UINT, STRING(80)
-    yield from (Constant(f"MAX_{one}", number, 1, "not used here") for one in ("STATION", "MOVER", "PROCESS"))
+    for one in ("STATION", "MOVER", "PROCESS"):
+        yield Constant(f"MAX_{one}", number, PLACEHOLDERS, "levels of GVL_MSG, not used else")
     yield Constant("MAX_AXIS", number, sizes.max_axis, "axes, cams, flying saws")
     yield Constant("MAX_RETRY", number, sizes.max_retry, "retries of AXIS_IDLE")
     yield Constant("NCI_DIR", text, _NCI_DIRS[features.windows], "folder of NC programs")

@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from motionlayer.command import Command, Ledger
 from motionlayer.layer._answer import Waits
 from motionlayer.layer._constants import Features, Sizes
+from motionlayer.layer._exchange import Exchange
 from motionlayer.layer._globals import Globals
 from motionlayer.layer._inputs import overwrite
 from motionlayer.layer._mapping import MapOptions
@@ -62,6 +63,10 @@ class ControlSide:
         self.axis = axis_objects(names, self.globals.axis, self._waits)
         for index in range(1, sizes.max_axis + 1):
             overwrite(self.globals.axis.ctrl, index, cmd=AxisCommand.INIT)
+        self._states = [one.state for one in self.axis]
+        self._exchanges = [Exchange(AxisCommand.INIT) for _ in self._states]
+        for state, exchange in zip(self._states, self._exchanges, strict=True):
+            state.exchange = exchange
 
     @property
     def ready(self) -> bool:
@@ -85,6 +90,8 @@ class ControlSide:
     def _copy_in(self, tick: int) -> None:
         """Show what the other machine has sent, and wake who waits for it."""
         self.mapping.copy_in(tick)
+        for state, exchange in zip(self._states, self._exchanges, strict=True):
+            exchange.take(state.code)
         if self._waits.open:
             self._waits.look()
         self._starting.look()
@@ -94,4 +101,6 @@ class ControlSide:
         if self.given is None and int(self.globals.program.axis.value) in (Progress.DONE, Progress.ERROR):
             self.given = tick
         if self.given is not None:
+            for state, exchange in zip(self._states, self._exchanges, strict=True):
+                exchange.give(state.asked)
             self.mapping.copy_out(tick)

@@ -47,6 +47,8 @@ class Controller(ABC):
         result: of the job.
     """
 
+    __slots__ = ("_logged", "_number", "_shown", "command", "job", "result")  # see `Job`
+
     def __init__(self, job: Job) -> None:
         self.job = job
         self.command = 0

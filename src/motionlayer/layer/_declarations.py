@@ -1,5 +1,7 @@
 """What a control side is told of the interface: types, constants, and the variables that it shares with the layer."""
 
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Final
 
 from motionlayer.iec.export import Declarations, Variable, VariableList
@@ -21,21 +23,31 @@ _READ_BY_SYMBOL: Final = (Message.type, MessageCtrl.type, MessageState.type)
 """What belongs to no variable of a control side, but is read by clients."""
 
 
-def control_side(shared: Globals, title: str) -> Declarations:
+_USED: Final = ("GVL_AXIS",)
+"""Lists that are carried out. What stands in the others answers NOT_EXIST, and need not be carried anywhere."""
+
+
+def control_side(shared: Globals, title: str, own: Sequence[VariableList] = ()) -> Declarations:
     """Return the declarations for the control side of a machine.
 
     Args:
         shared: the variables of the layer.
         title: first line of each file.
+        own: variables of the machine beside the layer, and of namespaces that programs have declared.
+
+    Raises:
+        ValueError: two different types have one name.
     """
     ready = shared.program.axis
     start = VariableList("MAIN_AXIS", [Variable("eInit", ready.type, "10000: the layer is ready", written=False)])
-    lists = [VariableList(name, group.exported()) for name, group in shared.lists.items()]
+    lists = [VariableList(name, group.exported(), name in _USED) for name, group in shared.lists.items()]
+    messages = VariableList("GVL_MSG_AXIS", [replace(one, written=None) for one in shared.messages.exported()])
     return Declarations(
         title,
         types=(*ENUMERATIONS, *_READ_BY_SYMBOL),
         libraries=_LIBRARIES,
         constants=list(constants(shared.sizes, shared.features)),
-        lists=[start, *lists],
+        lists=[start, *lists, messages, *own],
         constant_list=CONSTANTS,
+        start=f"{start.name}.{start.variables[0].name}",
     )

@@ -13,7 +13,7 @@ from motionlayer.layer._axis_ref_array import AxisRefArray
 from motionlayer.layer._constants import VERSION, Features, Sizes, constants
 from motionlayer.layer._function_globals import CamGlobals, FunctionGlobals, NciGlobals, SawGlobals
 from motionlayer.layer._global_list import GlobalList, Reach
-from motionlayer.layer._message_globals import MessageGlobals
+from motionlayer.layer._message_globals import MessageGlobals, OtherMessageGlobals
 from motionlayer.layer.types import (
     E_PROGRESS,
     AxisCtrl,
@@ -118,6 +118,7 @@ class Globals:
         cam: `GVL_CAM`.
         saw: `GVL_FLYING_SAW`.
         messages: `GVL_MSG_AXIS`.
+        other_messages: `GVL_MSG`.
     """
 
     def __init__(self, sizes: Sizes, features: Features, images: "AxisRefs | None" = None) -> None:
@@ -130,8 +131,9 @@ class Globals:
         self.cam = CamGlobals(sizes)
         self.saw = SawGlobals(sizes)
         self.messages = MessageGlobals(sizes, features)
+        self.other_messages = OtherMessageGlobals(sizes)
         self.symbols = SymbolTable()
-        for group in (*self.lists.values(), self.program, self.messages, _constant_list(sizes, features)):
+        for group in (*self._groups, _constant_list(sizes, features)):
             group.register(self.symbols)
 
     @property
@@ -148,8 +150,11 @@ class Globals:
     @property
     def arrays(self) -> Mapping[str, Variable[Any]]:
         """All variables by the names of their symbols."""
-        groups = (*self.lists.values(), self.program, self.messages)
-        return {one.variable.name: one.variable for group in groups for one in group.entries}
+        return {one.variable.name: one.variable for group in self._groups for one in group.entries}
+
+    @property
+    def _groups(self) -> tuple[GlobalList, ...]:
+        return *self.lists.values(), self.program, self.messages, self.other_messages
 
 
 def _constant_list(sizes: Sizes, features: Features) -> GlobalList:

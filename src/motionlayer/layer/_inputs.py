@@ -27,9 +27,14 @@ def overwrite(array: "InputArray[Any]", index: int | None, **values: object) -> 
 
 
 def check_data(array: "InputArray[MoveData]", index: int, job: "AxisJob") -> None:
-    """Take up new move data: what is not finite becomes 0.0, where the client sees it; the override holds at once."""
+    """Take up new move data: what is not finite becomes 0.0, where the client sees it; the override holds at once.
+
+    A position of 0.0 that stands for another is no target: the next command that would move there is refused.
+    """
     data = array[index]
-    _check(array, index, [name for name in SET_VALUES if not math.isfinite(getattr(data, name))], job)
+    wrong = [name for name in SET_VALUES if not math.isfinite(getattr(data, name))]
+    job.no_target = "position" in wrong or (job.no_target and data.position == 0.0)
+    _check(array, index, wrong, job)
     asked = array[index].override
     allowed = min(max(asked, 0.0), PERCENT)
     if asked != allowed:

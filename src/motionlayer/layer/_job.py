@@ -148,6 +148,9 @@ class Job:
         ledger: the present tick.
     """
 
+    # Read in every cycle of a job; a snapshot, which looks into dictionaries, would slow those of an instance down.
+    __slots__ = ("ledger", "since", "step", "table")
+
     def __init__(self, table: JobTable[Any], ledger: Ledger) -> None:
         self.ledger = ledger
         self.table = table

@@ -18,6 +18,7 @@ from typing import Final
 from motionlayer.event import Device, Event, EventLog, Kind, Level, Subdevice
 from motionlayer.iec import BOOL, STRING, InputArray, OutputArray
 from motionlayer.layer._mapping_image import Image, InputImage, OutputImage, Port
+from motionlayer.layer._mapping_table import SELECTOR, SWITCHES
 from motionlayer.runtime import Mailbox
 
 ORIGINAL: Final = "MAPPING_AXIS"
@@ -36,12 +37,19 @@ class MapOptions:
         group: one of `GROUPS`.
         indices: of the objects, in the order of the images; None: all of them, and the names of the original.
         selector: it also holds the parameter selector.
+        switches: it also holds the limit switches of its axes.
     """
 
     name: str
     group: str
     indices: tuple[int, ...] | None = None
     selector: bool = False
+    switches: bool = False
+
+    @property
+    def groups(self) -> tuple[str, ...]:
+        """Groups of rows that it holds."""
+        return self.group, *([SELECTOR] if self.selector else []), *([SWITCHES] if self.switches else [])
 
     @property
     def prefix(self) -> str:

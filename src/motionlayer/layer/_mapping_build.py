@@ -10,7 +10,7 @@ from motionlayer.layer._globals import Globals
 from motionlayer.layer._mapping import ORIGINAL, ImageMapping, InputProgram, MapOptions, OutputProgram
 from motionlayer.layer._mapping_image import CommandImage, Elements, InputImage, MirrorImage, OutputImage
 from motionlayer.layer._mapping_symbols import add_symbols
-from motionlayer.layer._mapping_table import INPUTS, OUTPUTS, SELECTOR, SIMULATED, Row
+from motionlayer.layer._mapping_table import INPUTS, OUTPUTS, SELECTOR, WRITTEN, Row
 from motionlayer.layer._ownership import Access, Ownership
 from motionlayer.runtime import Areas, Mailbox
 
@@ -35,7 +35,7 @@ def layer_mapping(maps: Sequence[MapOptions], arrays: Arrays, outside: Outside) 
     for prefix in _prefixes(maps):
         name = f"{prefix}_in"
         images: list[InputImage] = []
-        for row, array, places in _rows((*INPUTS, *SIMULATED), maps, prefix, arrays):
+        for row, array, places in _rows(WRITTEN, maps, prefix, arrays):
             assert isinstance(array, InputArray)
             area = outside.areas.add(f"{name}.{row.image}", array.size * len(places), outside=True)
             images.append(CommandImage(area, array, places, written=row.written))
@@ -62,7 +62,7 @@ def control_mapping(maps: Sequence[MapOptions], arrays: Arrays, outside: Outside
         name = f"{prefix}_out"
         shown = [
             _shown(f"{name}.{row.image}", array, places, outside)
-            for row, array, places in _rows((*INPUTS, *SIMULATED), maps, prefix, arrays)
+            for row, array, places in _rows(WRITTEN, maps, prefix, arrays)
         ]
         outputs.append(OutputProgram(name, shown, outside.events))
     return ImageMapping(inputs, outputs, [])
@@ -116,7 +116,7 @@ def _rows(
     """Yield the rows of a program, in the order of the table, with the elements that they hold."""
     for row in [row for row in rows if row.symbol in arrays]:
         for one in maps:
-            if one.prefix == prefix and (row.group == one.group or (row.group == SELECTOR and one.selector)):
+            if one.prefix == prefix and row.group in one.groups:
                 array = arrays[row.symbol]
                 chosen = None if row.group == SELECTOR else one.indices
                 # A trigger box may have no touch probe of the same index.

@@ -18,9 +18,9 @@ from motionlayer.iec import (
 )
 from motionlayer.layer._mapping import ORIGINAL, ImageMapping, InputProgram, OutputProgram
 from motionlayer.layer._mapping_image import Image, InputImage
-from motionlayer.layer._mapping_table import GROUPS, INPUTS, OUTPUTS, SIMULATED
+from motionlayer.layer._mapping_table import GROUPS, OUTPUTS, WRITTEN
 
-_GROUP_OF: Final = {row.image: row.group for row in (*INPUTS, *SIMULATED, *OUTPUTS)}
+_GROUP_OF: Final = {row.image: row.group for row in (*WRITTEN, *OUTPUTS)}
 
 
 class ImageSource:

@@ -12,6 +12,9 @@ GROUPS: Final = ("axis", "nci", "cam", "trigger", "saw")
 SELECTOR: Final = "selector"
 """The parameter selector: a single object, mapped with one of the maps of axes."""
 
+SWITCHES: Final = "switches"
+"""Limit switches of the axes of a map that asks for them; the original has no image of them (D51)."""
+
 
 class Row(NamedTuple):
     """An image and its partner.
@@ -49,10 +52,13 @@ INPUTS: Final = (
     Row("saw", "FlyData", "GVL_FLYING_SAW.Data"),
     Row("saw", "FlyOptions", "GVL_FLYING_SAW.Options"),
 )
-"""Images that controllers write."""
+"""Images that controllers write, as in the original."""
 
 SIMULATED: Final = (Row("axis", "DriveFault", "GVL_SIMULATION.DriveFault"),)
 """Images behind these that the original has not: they reach what only a simulated machine has."""
+
+WRITTEN: Final = (*INPUTS, Row(SWITCHES, "AxisLimitSwitches", "GVL_AXIS.LimitSwitches"), *SIMULATED)
+"""All images that controllers write."""
 
 OUTPUTS: Final = (
     Row("axis", "AxisState", "GVL_AXIS.State"),

@@ -1,17 +1,20 @@
-"""`Messages`: the variables of `GVL_MSG_AXIS` follow what is said in the run (motion-layer 8).
+"""`Messages`: the variables of `GVL_MSG_AXIS` and `GVL_MSG` follow what is said in the run (motion-layer 8).
 
 ```
 events ─┬─ levels ─ queue ─ thread ─ file            record.log: complete, whatever the lists hold
         └─ levels ─ slots ─ [end of tick] ─ MotionMessages, MetricMessages
                       ▲ freed by the writer: many messages, an error, or 5 s
 ```
+
+The lists of `GVL_MSG` have no writer: they are filled, and stay so.
 """
 
 from collections.abc import Callable
 from datetime import datetime
 from typing import TYPE_CHECKING, Final
 
-from motionlayer.event import Lists, MessageList
+from motionlayer.event import Device, MessageList, list_of
+from motionlayer.layer._message_globals import other_list_of
 from motionlayer.layer._messages_levels import LevelVariables
 from motionlayer.layer._messages_slots import Slots
 from motionlayer.layer._messages_writer import PERIOD, MessageWriter
@@ -20,7 +23,7 @@ from motionlayer.runtime import Stage, Step
 if TYPE_CHECKING:
     from motionlayer.command import Ledger
     from motionlayer.event import Event, EventLog, Levels
-    from motionlayer.layer._message_globals import MessageGlobals
+    from motionlayer.layer._message_globals import MessageGlobals, OtherList, OtherMessageGlobals
 
 DAY: Final = 10
 SECONDS: Final = 19
@@ -35,6 +38,7 @@ class Messages:
 
     Args:
         variables: of `GVL_MSG_AXIS`.
+        others: of `GVL_MSG`.
         events: of the run; listened to from now on.
         levels: which messages are written, into files and lists alike.
         ledger: the present tick.
@@ -46,6 +50,7 @@ class Messages:
     def __init__(
         self,
         variables: "MessageGlobals",
+        others: "OtherMessageGlobals",
         events: "EventLog",
         levels: "Levels",
         ledger: "Ledger",
@@ -55,11 +60,12 @@ class Messages:
     ) -> None:
         lists = {MessageList.MOTION: variables.motion, MessageList.METRICS: variables.metric}
         period = max(1, round(PERIOD / cycle_time))
-        self._slots = {of: Slots(one, time) for of, one in lists.items()}
+        self._slots: dict[MessageList | OtherList, Slots] = {of: Slots(one, time) for of, one in lists.items()}
+        self._slots |= {of: Slots(one, time) for of, one in others.lists.items()}
         self._writers = [MessageWriter(one, self._slots[of], ledger, period) for of, one in lists.items()]
-        self._level_variables = LevelVariables(variables, levels, events, ledger)
+        self._level_variables = LevelVariables(variables, others, levels, events, ledger)
         self._levels = levels
-        self._lists = Lists()
+        self._of_device: dict[int, Slots] = {}
         self._time = time
         self._ready = ready
         self._starting = True
@@ -77,10 +83,14 @@ class Messages:
     def _add(self, event: "Event") -> None:
         """Take in a message, if it is of interest."""
         if self._levels.passes(event):
-            of = self._lists[event.device]
-            if of is not None:
-                self._slots[of].add(event)
-                self._next = 0
+            slots = self._of_device.get(event.device) or self._slots_of(event.device)
+            slots.add(event, counted=event.device != Device.Device_MoverSelector)
+            self._next = 0
+
+    def _slots_of(self, device: int) -> Slots:
+        """Return the list of a device, and remember it."""
+        self._of_device[device] = slots = self._slots[list_of(device) or other_list_of(device)]
+        return slots
 
     def _cycle(self, tick: int) -> None:
         """Show what has come in this tick."""

@@ -14,20 +14,28 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from motionlayer.command import Ledger
-    from motionlayer.layer._message_globals import MessageGlobals
+    from motionlayer.layer._message_globals import MessageGlobals, OtherMessageGlobals
 
 
 class LevelVariables:
-    """The levels of `GVL_MSG_AXIS`.
+    """The levels of `GVL_MSG_AXIS` and `GVL_MSG`.
 
     Args:
         variables: of `GVL_MSG_AXIS`.
+        others: of `GVL_MSG`.
         levels: that decide which messages are written.
         events: where a level that there is not is told.
         ledger: the present tick.
     """
 
-    def __init__(self, variables: "MessageGlobals", levels: Levels, events: EventLog, ledger: "Ledger") -> None:
+    def __init__(
+        self,
+        variables: "MessageGlobals",
+        others: "OtherMessageGlobals",
+        levels: Levels,
+        events: EventLog,
+        ledger: "Ledger",
+    ) -> None:
         self._all = variables.level
         self._axes = variables.axis_level
         self._levels = levels
@@ -42,6 +50,9 @@ class LevelVariables:
                 (variables.nci_level, (Device.NciChannel, Device.NciChannelCtrl)),
                 (variables.trigger_level, (Device.XfcTriggerBox,)),
                 (variables.probe_level, (Device.XfcTouchProbe,)),
+                (others.station_level, (Device.XtsStation,)),
+                (others.mover_level, (Device.Mover, Device.MoverCtrl)),
+                (others.process_level, (Device.Process,)),
             )
         }
         self._arrays = [array for array, _ in self._objects.values()]

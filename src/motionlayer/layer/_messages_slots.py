@@ -49,14 +49,14 @@ class Slots:
         self._fresh: list[Event] = []
         self._changed = False
 
-    def add(self, event: Event) -> None:
-        """Take in a message."""
+    def add(self, event: Event, *, counted: bool = True) -> None:
+        """Take in a message; `counted` tells whether an error of its device counts as one of the list (8.2)."""
         if self.used < self.size:
             self.used += 1
             self._fresh.append(event)
         else:
             self.lost += 1
-        if event.level == Level.ERROR:
+        if counted and event.level == Level.ERROR:
             self.errors += 1
         self._changed = True
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from motionlayer.command import ErrorId
 from motionlayer.event import Level, Subdevice
-from motionlayer.layer._axis_job import DONE, AxisJob, aborted, fail, failed, say, standing, succeeded
+from motionlayer.layer._axis_job import DONE, AxisJob, aborted, fail, failed, say, standing, succeeded, tell_held
 from motionlayer.layer._job import JobTable, Transition, a_call_later, always, nothing
 from motionlayer.layer.types._progress import Progress
 from motionlayer.nc import Direction
@@ -45,7 +45,7 @@ def _brakes(data: "MoveData") -> "BrakeKeywords":
 
 
 def is_active(job: AxisJob) -> bool:
-    """Condition: the axis works on the command, or has done so already."""
+    """Condition: the axis works on the command, or has done so already; what it takes is active at once."""
     command = job.command
     return command is not None and (command.active or command.done)
 
@@ -53,11 +53,23 @@ def is_active(job: AxisJob) -> bool:
 # -- to a position -----------------------------------------------------------------------------------------------------
 
 
+def target_of(job: AxisJob) -> float | None:
+    """Return the position that is asked for; None with a refused command, once, where it stands for no number."""
+    if not job.no_target:
+        return job.inputs.data.position
+    job.no_target = False
+    detail = "rSetPos was not finite, and nobody has asked for 0.0; write the target again"
+    job.command = job.axis.refuse("move_absolute", ErrorId.TARGET_NOT_FINITE, detail)
+    return None
+
+
 def start_move(job: AxisJob) -> None:
     """Action: move to the position."""
-    data = job.inputs.data
-    job.tell(Level.INFO, _MOVE, f" : {data.position}")
-    job.command = job.axis.move_absolute(data.position, velocity=data.velocity, **ramps(data))
+    data, target = job.inputs.data, target_of(job)
+    if target is not None:
+        job.tell(Level.INFO, _MOVE, f" : {target}")
+        job.command = job.axis.move_absolute(target, velocity=data.velocity, **ramps(data))
+        tell_held(job)
 
 
 MOVE_POS: Final = JobTable[AxisJob](
@@ -66,7 +78,6 @@ MOVE_POS: Final = JobTable[AxisJob](
         Transition(_P.INIT, always, start_move, _P.PREPARE),
         Transition(_P.PREPARE, is_active, say(Level.VERBOSE, _MOVE, "FB active: PROGRESS_OCCUPIED"), _P.OCCUPIED),
         Transition(_P.PREPARE, failed, fail(_MOVE), _P.ERROR),
-        Transition(_P.PREPARE, aborted, fail(_MOVE, "FB aborted: PROGRESS_ERROR"), _P.ERROR),
         Transition(_P.OCCUPIED, succeeded, say(Level.VERBOSE, _MOVE, DONE), _P.DONE),
         Transition(_P.OCCUPIED, failed, fail(_MOVE), _P.ERROR),
         Transition(_P.OCCUPIED, aborted, fail(_MOVE, "FB aborted : PROGRESS_ERROR"), _P.ERROR),
@@ -77,10 +88,12 @@ MOVE_POS: Final = JobTable[AxisJob](
 
 def start_send(job: AxisJob) -> None:
     """Action: move to the position, and remember from where."""
-    data = job.inputs.data
+    data, target = job.inputs.data, target_of(job)
     job.start = job.axis.actual_position
     job.latched = (job.inputs.options.distance,)
-    job.command = job.axis.move_absolute(data.position, velocity=data.velocity, **ramps(data))
+    if target is not None:
+        job.command = job.axis.move_absolute(target, velocity=data.velocity, **ramps(data))
+        tell_held(job)
 
 
 def far_enough(job: AxisJob) -> bool:
@@ -96,7 +109,6 @@ SEND_TO_POS: Final = JobTable[AxisJob](
         Transition(_P.INIT, always, start_send, _P.PREPARE),
         Transition(_P.PREPARE, is_active, nothing, _P.OCCUPIED),
         Transition(_P.PREPARE, failed, fail(_SEND, ""), _P.ERROR),
-        Transition(_P.PREPARE, aborted, fail(_SEND, ""), _P.ERROR),
         Transition(_P.OCCUPIED, failed, fail(_SEND, ""), _P.ERROR),
         Transition(_P.OCCUPIED, aborted, fail(_SEND, ""), _P.ERROR),
         Transition(_P.OCCUPIED, far_enough, say(Level.VERBOSE, _SEND, DONE), _P.DONE),
@@ -125,6 +137,7 @@ def start_velocity(job: AxisJob) -> None:
     if way is not None:
         job.tell(Level.INFO, _VELOCITY, f"FB start : {data.velocity}")
         job.command = job.axis.move_velocity(data.velocity, way, **ramps(data))
+        tell_held(job)
 
 
 def in_velocity(job: AxisJob) -> bool:

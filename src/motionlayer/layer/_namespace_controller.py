@@ -7,7 +7,7 @@ from motionlayer.event import Level
 from motionlayer.layer._controller import LARGEST, Choice, Controller
 from motionlayer.layer._namespace import NULL, NamespaceJob
 from motionlayer.layer.types._progress import Progress
-from motionlayer.runtime import describe
+from motionlayer.runtime import Guest, describe
 
 FAILED: Final = frozenset({Progress.ERROR, Progress.NOT_EXIST})
 """Results that have the number of an error."""
@@ -18,15 +18,18 @@ class NamespaceController(Controller):
 
     Args:
         job: its memory.
+        place: of the object among those of its namespace, from 0.
+        guest: names its conditions and actions while they run.
 
     Attributes:
-        place: of the object among those of its namespace, from 0.
+        place: as given.
     """
 
-    def __init__(self, job: NamespaceJob[Any, Any], place: int) -> None:
+    def __init__(self, job: NamespaceJob[Any, Any], place: int, guest: Guest) -> None:
         super().__init__(job)
         self.memory = job
         self.place = place
+        self._guest = guest
         self.result = self._logged = Progress.DONE
         self._ctrl: Any = job.ctrl
         self._state: Any = job.state
@@ -37,8 +40,10 @@ class NamespaceController(Controller):
     def call(self) -> bool:
         """Do the work of one cycle; an exception that leaves a condition or an action ends the job with an error."""
         try:
-            return super().call()
+            with self._guest:
+                return super().call()
         except Exception as failure:  # noqa: BLE001 - a fault in a program never stops the cycle
+            self._guest.note(failure)
             self.memory.error = ErrorId.PROGRAM_FAILED
             self.memory.tell(Level.ERROR, f"{self._name}: {describe(failure)}", ErrorId.PROGRAM_FAILED)
             self.result = Progress.ERROR

@@ -9,21 +9,27 @@ from typing import Any, Final, Generic, NamedTuple, TypeVar
 
 from motionlayer.command import Ledger
 from motionlayer.iec import InputArray, OutputArray, Struct, SymbolTable
+from motionlayer.iec.export import Variable, VariableList
 from motionlayer.layer._answer import ObjectState, Waits
 from motionlayer.layer._mapping import ImageMapping, InputProgram, OutputProgram
 from motionlayer.layer._mapping_build import Outside
 from motionlayer.layer._mapping_image import CommandImage, Elements, OutputImage, Port
 from motionlayer.layer._namespace import Namespace, NamespaceJob, NamespaceObject, Site
 from motionlayer.layer._namespace_controller import NamespaceController
+from motionlayer.layer._namespace_running import RunningNamespace
 from motionlayer.layer._objects import Objects
 from motionlayer.layer._options import Schedule
 from motionlayer.layer._ownership import Access, Ownership
-from motionlayer.runtime import Stage, Step
+from motionlayer.runtime import Guest, Stage, Step
 
 C = TypeVar("C", bound=Struct)
 S = TypeVar("S", bound=Struct)
 
 ALWAYS: Final = Schedule()
+
+_CTRL: Final = "command of {}"
+_STATE: Final = "state of {}"
+"""What a symbol says of itself."""
 
 
 class _Variables(NamedTuple, Generic[C, S]):
@@ -31,32 +37,7 @@ class _Variables(NamedTuple, Generic[C, S]):
 
     ctrl: InputArray[C]
     state: OutputArray[S]
-
-
-class _Running:
-    """One namespace at work."""
-
-    def __init__(
-        self, ctrl: InputArray[Any], controllers: Sequence[NamespaceController], schedule: Schedule, waits: Waits
-    ) -> None:
-        self._ctrl = ctrl
-        self._controllers = controllers
-        self._schedule = schedule
-        self._active: list[NamespaceController] = list(controllers)
-        self.waits = waits
-
-    def call(self, tick: int) -> None:
-        """Do the work of one cycle."""
-        if not self._schedule.holds(tick):
-            return
-        if self._ctrl.touched:
-            low = self._ctrl.low or 0
-            awake = {one.place for one in self._active} | {index - low for index in self._ctrl.take()}
-            self._active = [one for one in self._controllers if one.place in awake]
-        if self._active:
-            self._active = [one for one in self._active if one.call()]
-        if self.waits.open:
-            self.waits.look()
+    mapped: bool
 
 
 class Namespaces(Mapping[str, Namespace[Any, Any]]):
@@ -67,19 +48,29 @@ class Namespaces(Mapping[str, Namespace[Any, Any]]):
         outside: where their images lie.
         ledger: the present tick, and who commands.
         cycle_ns: length of a tick, ns.
+        guest: names the code of an object in messages: `GVL_TRANSPORT`, or `GVL_TRANSPORT[2]`.
 
     Attributes:
         mappings: the images of those that are mapped, by name; buses attach there.
     """
 
-    def __init__(self, symbols: SymbolTable, outside: Outside, ledger: Ledger, cycle_ns: int) -> None:
+    def __init__(
+        self,
+        symbols: SymbolTable,
+        outside: Outside,
+        ledger: Ledger,
+        cycle_ns: int,
+        guest: Callable[[str], Guest],
+    ) -> None:
         self._symbols = symbols
         self._outside = outside
         self._ledger = ledger
         self._cycle_ns = cycle_ns
+        self._guest = guest
         self._access = Access(outside.events, ledger)
         self._declared: dict[str, Namespace[Any, Any]] = {}
-        self._running: list[_Running] = []
+        self._variables: dict[str, _Variables[Any, Any]] = {}
+        self._running: list[RunningNamespace] = []
         self.mappings: dict[str, ImageMapping] = {}
 
     def __getitem__(self, name: str) -> Namespace[Any, Any]:
@@ -147,6 +138,19 @@ class Namespaces(Mapping[str, Namespace[Any, Any]]):
         """What belongs to buses, and not into a snapshot."""
         return (port for mapping in self.mappings.values() for port in mapping.ports)
 
+    def exported(self) -> list[VariableList]:
+        """Return the variables as a control side declares them: images where they are mapped, else by symbol."""
+        return [
+            VariableList(
+                name,
+                [
+                    Variable("Ctrl", ctrl.type, _CTRL.format(self[name].speaker), True if mapped else None),
+                    Variable("State", state.type, _STATE.format(self[name].speaker), False if mapped else None),
+                ],
+            )
+            for name, (ctrl, state, mapped) in self._variables.items()
+        ]
+
     def stages(self) -> Sequence[Stage]:
         """Return what a tick calls, before the stages of the layer."""
         return [
@@ -170,19 +174,24 @@ class Namespaces(Mapping[str, Namespace[Any, Any]]):
         variables = _Variables(
             InputArray(namespace.ctrl, low, high, f"{namespace.name}.Ctrl"),
             OutputArray(namespace.state, low, high, f"{namespace.name}.State"),
+            mapped,
         )
-        for variable, comment in ((variables.ctrl, "command"), (variables.state, "state")):
-            self._symbols.add(variable.name, variable, comment=f"{comment} of {namespace.speaker}")
+        for variable, comment in ((variables.ctrl, _CTRL), (variables.state, _STATE)):
+            self._symbols.add(variable.name, variable, comment=comment.format(namespace.speaker))
         owned = self._map(namespace.name, variables) if mapped else {}
         Ownership(variables.ctrl, owned, self._access, command=True)
         sites = [
             Site(namespace, 0 if single else place + 1, ctrl, state, self._ledger, self._outside.events, self._cycle_ns)
             for place, (ctrl, state) in enumerate(zip(variables.ctrl, variables.state, strict=True))
         ]
-        controllers = [NamespaceController(job(site), place) for place, site in enumerate(sites)]
+        controllers = [
+            NamespaceController(job(site), place, self._guest(f"{namespace.name}{'' if single else f'[{place + 1}]'}"))
+            for place, site in enumerate(sites)
+        ]
         waits = Waits()
         self._declared[namespace.name] = namespace
-        self._running.append(_Running(variables.ctrl, controllers, schedule, waits))
+        self._variables[namespace.name] = variables
+        self._running.append(RunningNamespace(variables.ctrl, controllers, schedule, waits))
         return [
             NamespaceObject(one.memory.index, name, one.memory.ctrl, _state_of(name, one, waits))
             for name, one in zip(names, controllers, strict=True)

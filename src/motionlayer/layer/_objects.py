@@ -59,6 +59,25 @@ class AxisObject:
     nc_parameter_out: NcParameter
     limit_switches: LimitSwitches
 
+    async def do(self, command: int) -> int:
+        """Give a command and wait until it is done; one that the command field holds already is given anew, after NULL.
+
+        Args:
+            command: number of the command. What it is to be done with is written before.
+
+        Returns:
+            The state.
+
+        Raises:
+            LayerError: it fails, does not exist, or is replaced.
+            ValueError: no state has room for the number of the command.
+        """
+        if self.ctrl.cmd == command:
+            self.ctrl.cmd = AxisCommand.NULL
+            await self.state.done(AxisCommand.NULL).settled()
+        self.ctrl.cmd = command
+        return await self.state.done(command)
+
 
 KINDS: Final[dict[str, Any]] = {
     one.name: AxisState if one.name == "state" else one.type
@@ -106,8 +125,9 @@ class Objects(Generic[T]):
     def _by_name(self, name: str) -> T:
         found = self._names.get(name)
         if found is None:
-            near = difflib.get_close_matches(name, self._names, n=1)
-            hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(self._names)}"
+            near = {one.lower(): one for one in self._names}
+            best = difflib.get_close_matches(name.lower(), near, n=1)
+            hint = f"did you mean {near[best[0]]!r}?" if best else f"there are {', '.join(self._names)}"
             raise KeyError(f"no {self._what} {name!r}; {hint}")
         return found
 

@@ -3,6 +3,7 @@
 Number and value are latched with the command. A parameter that is TRUE or FALSE travels as 1.0 or 0.0.
 """
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Final, cast
 
 from motionlayer.command import ErrorId
@@ -64,26 +65,23 @@ PARAMETER_READ: Final = JobTable[AxisJob](
     prepare=latch,
 )
 
-PARAMETER_WRITE: Final = JobTable[AxisJob](
-    "PARAMETER_WRITE",
-    [
-        Transition(_P.INIT, always, write, _P.OCCUPIED),
-        Transition(_P.OCCUPIED, failed, fail(_WRITE, ""), _P.ERROR),
-        Transition(_P.OCCUPIED, aborted, fail(_WRITE, ""), _P.ERROR),
-        Transition(_P.OCCUPIED, succeeded, show, _P.WORKING),
-        Transition(_P.WORKING, a_call_later, nothing, _P.DONE),
-    ],
-    prepare=latch,
-)
 
-PARAMETER_WRITE_PERSISTENT: Final = JobTable[AxisJob](
-    "PARAMETER_WRITE_PERSISTENT",
-    [
-        Transition(_P.INIT, always, write_persistent, _P.OCCUPIED),
-        Transition(_P.OCCUPIED, failed, fail(_KEEP, ""), _P.ERROR),
-        Transition(_P.OCCUPIED, aborted, fail(_KEEP, ""), _P.ERROR),
-        Transition(_P.OCCUPIED, succeeded, nothing, _P.WORKING),
-        Transition(_P.WORKING, a_call_later, nothing, _P.DONE),
-    ],
-    prepare=latch,
-)
+def _writing(
+    name: str, write_it: Callable[[AxisJob], None], part: Subdevice, written: Callable[[AxisJob], None]
+) -> JobTable[AxisJob]:
+    """Return the job that writes a parameter in a way, and what it does when that is done."""
+    return JobTable(
+        name,
+        [
+            Transition(_P.INIT, always, write_it, _P.OCCUPIED),
+            Transition(_P.OCCUPIED, failed, fail(part, ""), _P.ERROR),
+            Transition(_P.OCCUPIED, aborted, fail(part, ""), _P.ERROR),
+            Transition(_P.OCCUPIED, succeeded, written, _P.WORKING),
+            Transition(_P.WORKING, a_call_later, nothing, _P.DONE),
+        ],
+        prepare=latch,
+    )
+
+
+PARAMETER_WRITE: Final = _writing("PARAMETER_WRITE", write, _WRITE, show)
+PARAMETER_WRITE_PERSISTENT: Final = _writing("PARAMETER_WRITE_PERSISTENT", write_persistent, _KEEP, nothing)

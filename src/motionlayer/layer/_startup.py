@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final
 from motionlayer.event import Device, Event, Kind, Level, Subdevice
 from motionlayer.layer._inputs import overwrite
 from motionlayer.layer._job import Job, JobTable, Transition, always, nothing
+from motionlayer.layer.types import E_AXIS_CTRL
 from motionlayer.layer.types._commands import AxisCommand
 from motionlayer.layer.types._progress import Progress
 
@@ -45,6 +46,7 @@ class StartUp(Job):
         self._controllers = controllers
         self._ctrl = ctrl
         self._e_init = e_init
+        self._lost: AxisCommand | int = AxisCommand.NULL
         self.index = 1
 
     @property
@@ -70,9 +72,19 @@ class StartUp(Job):
             self._e_init.value = after
 
     def write(self, command: AxisCommand) -> None:
-        """Write the command field of the axis, whoever owns it."""
-        if self._ctrl[self.index].cmd != command:
-            overwrite(self._ctrl, self.index, cmd=command)
+        """Write the command field of the axis, whoever owns it; a command that is lost by this is told once."""
+        asked = self._ctrl[self.index].cmd
+        if asked == command:
+            return
+        if asked not in (AxisCommand.NULL, AxisCommand.INIT, self._lost):
+            self._tell_lost(asked)
+        overwrite(self._ctrl, self.index, cmd=command)
+
+    def _tell_lost(self, asked: AxisCommand | int) -> None:
+        self._lost = asked
+        what = f"{self._ctrl.name}[{self.index}]: {E_AXIS_CTRL.iec_name(asked)}"
+        text = f"{what} comes before the start-up has ended, and is overwritten by it"
+        self.tell(Level.WARNING, f"{text}; wait for MAIN_AXIS.eInit = 10000 before the first command", int(asked))
 
     def tell(self, level: Level, text: str, code: int) -> None:
         """Write a message."""

@@ -3,18 +3,18 @@
 A machine file is TOML, `format = 1`. It is checked completely before anything runs: each model checks its own
 table, relations between tables are checked beside the models, and all problems come in one `MachineError`,
 each with file, line, field, value and what is allowed. This is the only part that knows all others.
+What needs the motion layer or ADS is imported when it is asked for: a run without them starts sooner.
 """
 
-from motionlayer.connect.ads import ServerFailed
+import importlib
+from typing import TYPE_CHECKING, Any
+
+from motionlayer.connect import ServerFailed
 from motionlayer.machine._ads_description import AdsDescription
-from motionlayer.machine._ads_link import AdsLink, LinkError, ReadWrite
 from motionlayer.machine._description import Description
-from motionlayer.machine._drive_symbols import DriveFault
 from motionlayer.machine._errors import Finding, MachineError, OldName
-from motionlayer.machine._interface import interface
-from motionlayer.machine._load import check_description, load_description
+from motionlayer.machine._load import check_description, doubtful, load_description
 from motionlayer.machine._log_description import LogDescription
-from motionlayer.machine._loopback import Loopback
 from motionlayer.machine._machine import Machine
 from motionlayer.machine._machine_run import MachineRun
 from motionlayer.machine._mqtt_description import MqttDescription
@@ -25,6 +25,21 @@ from motionlayer.machine._replay import Replay, replay
 from motionlayer.machine._run_keywords import RealTimeKeywords, RunKeywords, SimulationKeywords
 from motionlayer.machine._schema import MachineFile, machine_schema, module_schema
 from motionlayer.machine._simulation import Simulation
+
+if TYPE_CHECKING:
+    from motionlayer.machine._ads_link import AdsLink, LinkError, ReadWrite
+    from motionlayer.machine._drive_symbols import DriveFault
+    from motionlayer.machine._interface import interface
+    from motionlayer.machine._loopback import Loopback
+
+_HOME = {
+    "AdsLink": "_ads_link",
+    "DriveFault": "_drive_symbols",
+    "LinkError": "_ads_link",
+    "Loopback": "_loopback",
+    "ReadWrite": "_ads_link",
+    "interface": "_interface",
+}
 
 __all__ = [
     "REALTIME_PATIENCE",
@@ -55,6 +70,7 @@ __all__ = [
     "SimulationKeywords",
     "Source",
     "check_description",
+    "doubtful",
     "interface",
     "load_description",
     "load_program",
@@ -64,3 +80,13 @@ __all__ = [
     "replay",
     "sources_of",
 ]
+
+
+def __getattr__(name: str) -> Any:  # noqa: ANN401 - whatever is asked for
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(f"{__name__}.{_HOME[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

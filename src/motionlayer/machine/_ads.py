@@ -1,13 +1,11 @@
-"""`Ads`: the ADS server of a run, or none; what it publishes, and what clients ask of the run as a whole."""
+"""`Ads`: the ADS server of a run, what it publishes, and what clients ask of the run as a whole."""
 
-import threading
 import time
 from collections import deque
 from collections.abc import Callable
 from typing import Final, NamedTuple, Protocol
 
 from motionlayer.connect.ads import (
-    CHANNEL,
     Bridge,
     Code,
     Contents,
@@ -17,7 +15,6 @@ from motionlayer.connect.ads import (
     Plan,
     State,
     Status,
-    Tree,
     Write,
     net_id,
     tree_of,
@@ -25,10 +22,8 @@ from motionlayer.connect.ads import (
 from motionlayer.machine._ads_axes import nc_contents
 from motionlayer.machine._ads_description import AdsDescription
 from motionlayer.machine._machine import Machine
+from motionlayer.machine._outside import REFUSED
 from motionlayer.runtime import Mailbox, MailboxFull
-
-REFUSED: Final = "ads.refused"
-"""The channel by which the server tells whom it has refused."""
 
 EPOCH: Final = 116_444_736_000_000_000
 """FILETIME of 1970-01-01."""
@@ -94,7 +89,7 @@ class Ads:
     """The ADS server of a run.
 
     Args:
-        description: what the machine file says; None: no server.
+        description: what the machine file says.
         run: what clients hold up and let go on.
         inside: publishes and applies.
         mailbox: of the run.
@@ -103,6 +98,8 @@ class Ads:
 
     Attributes:
         time: of ticks, for notifications.
+        begun: clients have been let in.
+        source: of the mailbox, what clients ask for.
 
     Raises:
         ServerFailed: it cannot begin.
@@ -110,7 +107,7 @@ class Ads:
 
     def __init__(
         self,
-        description: AdsDescription | None,
+        description: AdsDescription,
         run: Controlled,
         inside: Inside,
         mailbox: Mailbox,
@@ -123,74 +120,50 @@ class Ads:
         self._run = run
         self._inside = inside
         self._mailbox = mailbox
-        self._restarts = 0
+        self._beginnings = 1
         self._asked: deque[Reply] = deque()
         self._answers: deque[_Answer] = deque()
         self._config = False
-        self._closed = False
-        self._lock = threading.Lock()
-        self.begun = description is None
-        """There is nothing to begin any more."""
-        self._bridge: Bridge | None = None
-        mailbox.register(CHANNEL, inside.apply)
-        if description is not None:
-            hooks = Hooks(self._tell, self._control)
-            plan = _plan(description, run.machine.name, cycle_ns)
-            self._bridge = Bridge(plan, mailbox, hooks, own_process=own_process)
+        self._cycle_ns = cycle_ns
+        self.begun = False
+        hooks = Hooks(self._tell, self._control)
+        plan = _plan(description, run.machine.name, cycle_ns)
+        self.source = Bridge(plan, mailbox, hooks, own_process=own_process)
+        self._bridge: Bridge | None = self.source
 
     @property
     def port(self) -> int:
-        """TCP port that the server listens on.
-
-        Raises:
-            ValueError: this run has no server.
-        """
-        return self._described.port if self._bridge is None else self._bridge.port
+        """TCP port that the server listens on."""
+        return self._description.port if self._bridge is None else self._bridge.port
 
     @property
     def host(self) -> str:
-        """Address that the server listens on; see `port`."""
-        return self._described.host
+        """Address that the server listens on."""
+        return self._description.host
 
     @property
     def net_id(self) -> str:
-        """AMS NetId of the server; see `port`."""
-        return self._described.net_id
+        """AMS NetId of the server."""
+        return self._description.net_id
 
     @property
     def pid(self) -> int | None:
-        """Number of the server's process; None where it runs in a thread, or there is none."""
+        """Number of the server's process; None where it runs in a thread, or has ended."""
         return None if self._bridge is None else self._bridge.pid
-
-    @property
-    def _described(self) -> AdsDescription:
-        if self._description is None:
-            raise ValueError("this run has no ADS server: add [ads] to the machine file")
-        return self._description
-
-    @property
-    def tree(self) -> Tree:
-        """All symbols and types, as clients see them; complete when the first tick has ended."""
-        return tree_of(self._inside.places)
-
-    @property
-    def serves(self) -> bool:
-        """There is a server."""
-        return self._bridge is not None
 
     def begin(self, tick: int) -> None:
         """Let clients in: all symbols are known, the first tick has ended."""
         self.begun = True
         if self._bridge is None:
             return
-        memory, inside = self._bridge.memory, self._inside
-        inside.begin(memory.publish(inside.size), self._status)
+        inside, bridge = self._inside, self._bridge
+        inside.begin(bridge.share(inside.size, self._cycle_ns), self._status)
         self.publish(tick)
-        self._bridge.begin(Contents(self.tree, memory.size, nc_contents(inside.places)))
+        bridge.begin(Contents(tree_of(inside.places), inside.size, nc_contents(inside.places)))
 
     def publish(self, tick: int) -> None:
         """Let clients see this tick, and answer those that have changed the state which they see now."""
-        if not self.serves:
+        if self._bridge is None:
             return
         answers = [self._answers.popleft() for _ in range(len(self._answers))]
         self._inside.publish(tick)
@@ -208,7 +181,7 @@ class Ads:
             problem: why the run could not begin anew; "" if it has.
         """
         if not problem:
-            self._restarts += 1
+            self._beginnings += 1
         while self._asked:
             self._answers.append(_Answer(self._asked.popleft(), Code.INVALID_STATE if problem else Code.NO_ERROR))
         if problem:
@@ -216,10 +189,8 @@ class Ads:
 
     def close(self) -> None:
         """Stop the server; the mailbox has been closed."""
-        with self._lock:
-            self._closed = True
-            for reply in (*self._asked, *(answer.reply for answer in self._answers)):
-                reply(Outcome(Code.NOT_READY))
+        for reply in (*self._asked, *(answer.reply for answer in self._answers)):
+            reply(Outcome(Code.NOT_READY))
         self._inside.end()
         if self._bridge is not None:
             self._bridge.close()
@@ -229,24 +200,20 @@ class Ads:
         paused = self._run.paused
         plc = State.STOP if paused else State.RUN
         system = State.CONFIG if paused and self._config else State.RUN
-        return Status(self.time.filetime(tick), plc, 0, system, 0, self._restarts)
+        return Status(self.time.filetime(tick), plc, 0, system, 0, self._beginnings)
 
     def _control(self, write: Write, reply: Reply) -> None:
-        """Do what a client asks of the whole run; called in a thread of the bridge."""
-        with self._lock:
-            if self._closed:
-                reply(Outcome(Code.NOT_READY))
-                return
-            self._config = write.place in _CONFIG
-            if write.place == State.RESET:
-                self._asked.append(reply)
-                self._run.resume()
-                return
-            if write.place in _UP:
-                self._run.resume()
-            else:
-                self._run.pause()
-            self._answers.append(_Answer(reply, Code.NO_ERROR))
+        """Do what a client asks of the whole run."""
+        self._config = write.place in _CONFIG
+        if write.place == State.RESET:
+            self._asked.append(reply)
+            self._run.resume()
+            return
+        if write.place in _UP:
+            self._run.resume()
+        else:
+            self._run.pause()
+        self._answers.append(_Answer(reply, Code.NO_ERROR))
 
     def _tell(self, who: str, why: str) -> None:
         """Let the log of the run say who was refused, in the next tick."""

@@ -1,20 +1,24 @@
 """The table `[ads]`: the ADS server of a run."""
 
 import ipaddress
-from typing import Annotated, Final, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Final, TypeAlias
 
 from pydantic import AfterValidator, Field
 from pydantic_core import PydanticCustomError
 
-from motionlayer.connect.ads import Access, Limits, net_id
 from motionlayer.machine._fields import Duration, Table, Text
 from motionlayer.machine._mqtt_description import MqttDescription
+
+if TYPE_CHECKING:
+    from motionlayer.connect.ads import Access, Limits
 
 PORT: Final = 48898
 """TCP port of ADS."""
 
 
 def _net_id(text: str) -> str:
+    from motionlayer.connect.ads import net_id  # noqa: PLC0415 - where a machine has [ads]
+
     try:
         net_id(text)
     except ValueError:
@@ -76,8 +80,10 @@ class AdsLimitsDescription(Table):
     )
 
     @property
-    def limits(self) -> Limits:
+    def limits(self) -> "Limits":
         """The same for the server."""
+        from motionlayer.connect.ads import Limits  # noqa: PLC0415 - where a machine has [ads]
+
         return Limits(**self.model_dump())
 
 
@@ -112,8 +118,10 @@ class AdsDescription(Table):
     )
 
     @property
-    def access(self) -> Access:
+    def access(self) -> "Access":
         """Who may do what, for the server."""
+        from motionlayer.connect.ads import Access, net_id  # noqa: PLC0415 - where a machine has [ads]
+
         return Access(
             tuple(ipaddress.ip_network(one, strict=False) for one in self.hosts),
             frozenset(map(net_id, self.net_ids)),

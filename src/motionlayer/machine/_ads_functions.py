@@ -8,7 +8,8 @@ from motionlayer.command import Command, ErrorId
 from motionlayer.connect.ads import CYCLIC, FUNCTIONS, PARAMETERS, Code, Outcome, Write, axis_address, function
 from motionlayer.fb import write_parameter
 from motionlayer.machine._ads_nc import FULL_OVERRIDE, WRITABLE
-from motionlayer.nc import ControlDWord
+from motionlayer.machine._ads_stops import clear_task, emergency_stop, oriented_stop, parameterised_stop
+from motionlayer.nc import ControlDWord, HomeCommand
 
 if TYPE_CHECKING:
     from motionlayer.fb import AXIS_REF
@@ -16,24 +17,10 @@ if TYPE_CHECKING:
 Function = Callable[["AXIS_REF", bytes], Command[Any] | None]
 """Does something with an axis; gets the data of the request."""
 
-_REALS: Final = struct.Struct("<2d")
 _POSITION: Final = struct.Struct("<2Id")
 _U16, _U32, _F64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<d")
 _POWER: Final = ControlDWord.Enable, ControlDWord.FeedEnablePlus, ControlDWord.FeedEnableMinus
 _END_ABSOLUTE, _END_RELATIVE = 1, 2
-
-
-def _emergency_stop(ref: "AXIS_REF", data: bytes) -> Command[Any]:
-    """Brake with what is given, or with the maximum dynamics; what is too weak is raised by the axis."""
-    deceleration, jerk = _REALS.unpack(data)
-    if deceleration == jerk == 0.0:
-        return ref.axis.emergency_stop()
-    return ref.axis.stop(deceleration=deceleration or None, jerk=jerk or None)
-
-
-def _parameterised_stop(ref: "AXIS_REF", data: bytes) -> Command[Any]:
-    deceleration, jerk = _REALS.unpack(data)
-    return ref.axis.halt(deceleration=deceleration or None, jerk=jerk or None)
 
 
 def _new_end_position(ref: "AXIS_REF", data: bytes) -> Command[Any]:
@@ -49,9 +36,11 @@ def _new_end_position(ref: "AXIS_REF", data: bytes) -> Command[Any]:
 _FUNCTIONS: Final[Mapping[int, Function]] = {
     0x01: lambda ref, _data: ref.axis.reset(),
     0x02: lambda ref, _data: ref.axis.stop(),
-    0x04: _emergency_stop,
-    0x05: _parameterised_stop,
-    0x10: lambda ref, _data: ref.axis.home(),
+    0x03: clear_task,
+    0x04: emergency_stop,
+    0x05: parameterised_stop,
+    0x09: oriented_stop,
+    0x10: lambda ref, _data: ref.axis.home(cam=bool(ref.PlcToNc.ControlDWord & ControlDWord.HomingSensor)),
     0x11: _new_end_position,
 }
 
@@ -81,6 +70,14 @@ def _control_bit(bit: ControlDWord) -> Function:
     return switch
 
 
+def _homing_cam(ref: "AXIS_REF", data: bytes) -> None:
+    """Show the signal of the homing cam in the cyclic interface, and tell it to a homing that runs."""
+    on, word, command = any(data), ref.PlcToNc.ControlDWord, ref.axis.command
+    ref.PlcToNc.ControlDWord = word | ControlDWord.HomingSensor if on else word & ~ControlDWord.HomingSensor
+    if isinstance(command, HomeCommand):
+        command.cam(on=on)
+
+
 def _override(ref: "AXIS_REF", data: bytes) -> None:
     (steps,) = _U32.unpack(data)
     ref.axis.set_override(steps / FULL_OVERRIDE)
@@ -92,6 +89,7 @@ _CYCLIC: Final[Mapping[int, Function]] = {
     0x02: _control_bit(ControlDWord.Enable),
     0x03: _control_bit(ControlDWord.FeedEnablePlus),
     0x04: _control_bit(ControlDWord.FeedEnableMinus),
+    0x07: _homing_cam,
     0x21: _override,
 }
 

@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterator, Sequence
 from types import TracebackType
 from typing import Final, NamedTuple, Self
 
+from motionlayer.connect.ads import INFO_BY_NAME, SUM_READ, SUM_READ_WRITE, SUM_WRITE, VERSION
 from motionlayer.layer import SIMULATED, START, ControlSide, Progress
 from motionlayer.machine._machine_run import MachineRun
 from motionlayer.machine._outside import LINK
@@ -24,11 +25,6 @@ from motionlayer.runtime import Area, MailboxFull
 ReadWrite = Callable[[int, int, int, bytes], bytes]
 """The command ReadWrite of an ADS client: index group, index offset, most bytes of the answer, data. It returns the
 answer, and raises whatever the client raises when the server refuses or is not there."""
-
-INFO_BY_NAME: Final = 0xF007
-SUM_READ: Final = 0xF080
-SUM_WRITE: Final = 0xF081
-SUM_READ_WRITE: Final = 0xF082
 
 RETRY: Final = 1.0
 """Seconds of wall time after which a broken connection is tried again."""
@@ -48,6 +44,9 @@ class _Place(NamedTuple):
     group: int
     offset: int
     size: int
+
+
+_VERSION: Final = _Place(VERSION, 0, 1)
 
 
 class _Output:
@@ -107,6 +106,7 @@ class AdsLink:
         self._ask = read_write
         self._period = period
         self._up = False  # the start-up of the other side has ended
+        self._version: bytes | None = None  # of the symbols there, which a restart changes
         self._outputs: list[_Output] = []
         self._inputs: list[_Input] = []
         self._over = threading.Event()
@@ -151,7 +151,7 @@ class AdsLink:
 
     def _find(self) -> None:
         """Ask where the symbols lie on the other side."""
-        self._up = False
+        self._up, self._version = False, None
         images = list(self._control.mapping.images)
         places = self._places([image.partner.array.name for image in images])
         self._outputs, self._inputs = [], []
@@ -202,16 +202,24 @@ class AdsLink:
             one.given(image)
 
     def _take(self) -> None:
-        """Read all states, and post those that have changed."""
+        """Read all states, and post those that have changed; of another run of the other side, find the symbols."""
         inputs = self._inputs
-        head, size = _CODE.size * len(inputs), sum(one.place.size for one in inputs)
-        requests = b"".join(_PLACE.pack(*one.place) for one in inputs)
-        answer = self._ask(SUM_READ, len(inputs), head + size, requests)
+        places = [_VERSION, *(one.place for one in inputs)]
+        head, size = _CODE.size * len(places), sum(place.size for place in places)
+        answer = self._ask(SUM_READ, len(places), head + size, b"".join(_PLACE.pack(*place) for place in places))
         if any(answer[:head]):
             raise LinkError("the other side refuses to have its states read")
+        version, before = answer[head : head + _VERSION.size], self._version
+        if before not in (None, version):
+            self._tell("the motion machine has begun anew; after its start-up everything is written again")
+            self._find()
+        self._version = version
+        self._post(answer, head + _VERSION.size)
+
+    def _post(self, answer: bytes, at: int) -> None:
+        """Post the states that have changed, from a place in an answer on."""
         _, image = self._control.areas.read(slice(None))
-        at = head
-        for one in inputs:
+        for one in self._inputs:
             data = answer[at : at + one.place.size]
             at += one.place.size
             if one.area.name == START:  # a start-up is left alone

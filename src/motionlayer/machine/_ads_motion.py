@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Final, cast
 
 from motionlayer import fb
+from motionlayer.command import ErrorId
 from motionlayer.iec import (
     BOOL,
     LREAL,
@@ -76,8 +77,11 @@ NUMBERS: Final[Mapping[object, Mapping[int, int]]] = {
 }
 """The numbers of blocks by those of the compiled interface, where they differ."""
 
-NO_MODE: Final = -1
-"""In the place of a mode that blocks have not; they refuse it."""
+REFUSALS: Final[Mapping[object, ErrorId]] = {
+    MC_BUFFER_MODE: ErrorId.BUFFER_MODE,
+    MC_HOMING_MODE: ErrorId.MODE_INVALID,
+}
+"""What a number is refused with that no block has."""
 
 LEFT_OUT: Final = frozenset({"Axis", "Execute", "Enable", "bCalibrationCam"})
 """Inputs that a call has by itself, or that mean something in a cyclic call only."""
@@ -124,13 +128,24 @@ class MotionObjects(OutputArray[MotionAxis]):
         inputs = _parameters(kind)
 
         def call(index: int, *values: object) -> tuple[int, int]:
+            given = dict(zip(inputs, values, strict=True))
+            for one, value in given.items():
+                if value not in NUMBERS.get(one.type, (value,)):
+                    return self._refused(index, name, one, value)
             block = kind(self._refs[index - 1])
-            block(Execute=True, **{one.name: _number(one, value) for one, value in zip(inputs, values, strict=True)})
+            block(Execute=True, **{one.name: _number(one, value) for one, value in given.items()})
             if kind is fb.MC_Stop:
                 block(Execute=False)  # nobody holds the axis locked once it rests: a client may be gone by then
             return self._called(index, block)
 
         return Method(name, call, inputs, (_COMMAND,), UDINT, (kind.__doc__ or "").partition("\n")[0])
+
+    def _refused(self, index: int, name: str, parameter: Parameter, value: object) -> tuple[int, int]:
+        """Let the axis tell that a number means nothing, and return the results of the call."""
+        error, allowed = REFUSALS[parameter.type], ", ".join(str(int(one)) for one in NUMBERS[parameter.type])
+        detail = f"{parameter.name} = {int(cast('int', value))}, allowed: {allowed}"
+        self._refs[index - 1].axis.refuse(name, error, detail)
+        return int(error), 0
 
     def _called(self, index: int, block: Any) -> tuple[int, int]:  # noqa: ANN401 - blocks share their outputs by name
         """Return the results of a call; a command that was refused replaces none that is shown."""
@@ -187,6 +202,6 @@ def _parameters(kind: type[Any]) -> tuple[Parameter, ...]:
 
 
 def _number(parameter: Parameter, value: object) -> object:
-    """Return what a block is given for the input of a client."""
+    """Return what a block is given for the input of a client, a number that means something."""
     numbers = NUMBERS.get(parameter.type)
-    return value if numbers is None else numbers.get(cast("int", value), NO_MODE)
+    return value if numbers is None else numbers[cast("int", value)]

@@ -24,7 +24,8 @@ from motionlayer.connect.ads import (
 )
 from motionlayer.fb import MC_AxisParameter as P
 from motionlayer.iec import LREAL, STRING, UDINT, UINT, Field, OutputArray, Struct
-from motionlayer.layer.types import NcToPlc, PlcToNc
+from motionlayer.layer.types import AxisEncoderType, NcToPlc, PlcToNc
+from motionlayer.nc import ControlDWord
 
 if TYPE_CHECKING:
     from motionlayer.fb import AXIS_REF
@@ -69,6 +70,11 @@ class NcRow(Struct, iec="ST_NC_AXIS", pack=8):
     cycles = Field("Cycles", UDINT, "counter of cycles")
     direction = Field("Direction", LREAL, "of the set velocity: -1, 0, 1")
     override = Field("Override", UDINT, "1000000 is 100 %")
+    enable = Field("Enable", UINT, "bit of the control word, as the next three")
+    feed_plus = Field("FeedPlus", UINT)
+    feed_minus = Field("FeedMinus", UINT)
+    homing_cam = Field("HomingCam", UINT)
+    encoder_type = Field("EncoderType", UDINT, "see AxisEncoderType")
     nothing = Field("Nothing", UDINT, "always 0: no error of the encoder")
 
 
@@ -96,8 +102,8 @@ _PARAMETERS: Final = {
     0x01: "AxisId", 0x02: "Name", 0x03: "AxisType", 0x04: "CycleTime", 0x05: "Unit", 0x06: "HomeVelocity",
     0x07: "HomeSyncVelocity", 0x08: "ManualSlow", 0x09: "ManualFast", 0x0A: "MaxVelocity", 0x0F: "RangeOn",
     0x10: "RangeWindow", 0x27: "MaxVelocity", 0x101: "MaxAcceleration", 0x102: "MaxDeceleration", 0x103: "MaxJerk",
-    0x1000B: "LimitMinOn", 0x1000C: "LimitMaxOn", 0x1000D: "LimitMin", 0x1000E: "LimitMax", 0x20010: "LagOn",
-    0x20012: "Lag",
+    0x10003: "EncoderType", 0x1000B: "LimitMinOn", 0x1000C: "LimitMaxOn", 0x1000D: "LimitMin", 0x1000E: "LimitMax",
+    0x20010: "LagOn", 0x20012: "Lag",
 }  # fmt: skip
 _STATE: Final = {
     0x01: "NcToPlc.ErrorCode", 0x09: "Cycles", 0x0A: "NcToPlc.SetPos", 0x0B: "NcToPlc.ModuloSetPos",
@@ -114,11 +120,20 @@ _ONLINE: Final = {
     168: "NcToPlc.TorqueOffset",
 }  # fmt: skip
 _CYCLIC: Final = {
-    0x00: "PlcToNc", 0x01: "PlcToNc.ControlDWord", 0x21: "Override", 0x80: "NcToPlc", 0x81: "NcToPlc.StateDWord",
+    0x00: "PlcToNc", 0x01: "PlcToNc.ControlDWord", 0x02: "Enable", 0x03: "FeedPlus", 0x04: "FeedMinus",
+    0x07: "HomingCam", 0x21: "Override", 0x80: "NcToPlc", 0x81: "NcToPlc.StateDWord",
 }  # fmt: skip
+_BITS: Final = {
+    "Enable": int(ControlDWord.Enable),
+    "FeedPlus": int(ControlDWord.FeedEnablePlus),
+    "FeedMinus": int(ControlDWord.FeedEnableMinus),
+    "HomingCam": int(ControlDWord.HomingSensor),
+}
+"""Members of the row that are bits of the control word; NumPy takes far longer for members of an enumeration."""
+
 _BEGINNING: Final = {0: "AxisId", 4: "Name", 36: "AxisType"}
-FUNCTION_SIZES: Final = {0x01: 0, 0x02: 0, 0x04: 16, 0x05: 16, 0x10: 0, 0x11: 16}
-CYCLIC_SIZES: Final = {0x01: 4, 0x02: 2, 0x03: 2, 0x04: 2, 0x21: 4}
+FUNCTION_SIZES: Final = {0x01: 0, 0x02: 0, 0x03: 0, 0x04: 16, 0x05: 16, 0x09: 24, 0x10: 0, 0x11: 16}
+CYCLIC_SIZES: Final = {0x01: 4, 0x02: 2, 0x03: 2, 0x04: 2, 0x07: 2, 0x21: 4}
 """Bytes of what the functions take, and of what can be written of the cyclic data."""
 
 
@@ -175,6 +190,13 @@ class NcRows(OutputArray[NcRow]):
         self._nc_to_plc, self._plc_to_nc = rows[:, first : first + size], rows[:, second : second + other]
         self.array["AxisId"] = np.arange(1, len(axes) + 1)
         self.array["CycleTime"] = round(images.cycle_time * 1e6)
+        count = len(axes)
+        # Tables never move, so that views on them can be kept: making them takes longer than what is done with them.
+        self._shown = images.nc_to_plc[:count].view(np.uint8).reshape(count, -1)
+        self._asked = images.plc_to_nc[:count].view(np.uint8).reshape(count, -1)
+        self._velocity, self._overrides = images.nc_to_plc["SetVelo"][:count], images.overrides[:count]
+        self._cycles, self._direction = self.array["Cycles"], self.array["Direction"]
+        self._known = b""
         self.publish()
 
     def contents(self, start: int) -> NcContents:
@@ -183,17 +205,26 @@ class NcRows(OutputArray[NcRow]):
 
     def publish(self) -> None:
         """Bring the rows up to date."""
-        count, images, array = self.count, self._images, self.array
-        self._nc_to_plc[:] = images.nc_to_plc[:count].view(np.uint8).reshape(count, -1)
-        self._plc_to_nc[:] = images.plc_to_nc[:count].view(np.uint8).reshape(count, -1)
-        array["Cycles"] = self._tick() & 0xFFFF_FFFF
-        array["Direction"] = np.sign(images.nc_to_plc["SetVelo"][:count])
-        array["Override"] = np.rint(images.overrides[:count] * FULL_OVERRIDE)
+        self._nc_to_plc[:] = self._shown
+        self._cycles[:] = self._tick() & 0xFFFF_FFFF
+        np.sign(self._velocity, out=self._direction, casting="unsafe")
+        asked = self._asked.tobytes() + self._overrides.tobytes()
+        if asked != self._known:
+            self._known = asked
+            self._show_asked()
         configs = [axis.config for axis in self._axes]
         if configs != self._configs:
             self._configs = configs
             for index, config in enumerate(configs, 1):
                 _describe(self[index], config)
+
+    def _show_asked(self) -> None:
+        """Show what axes were asked for."""
+        self._plc_to_nc[:] = self._asked
+        words = self._images.plc_to_nc["ControlDWord"][: self.count]
+        for name, bit in _BITS.items():
+            self.array[name] = words & bit != 0
+        self.array["Override"] = np.rint(self._overrides * FULL_OVERRIDE)
 
 
 def _describe(row: NcRow, config: "AxisConfig") -> None:
@@ -208,6 +239,8 @@ def _describe(row: NcRow, config: "AxisConfig") -> None:
     row.limit_min_on, row.limit_max_on = (int(np.isfinite(one)) for one in limits)
     row.limit_min, row.limit_max = (one if np.isfinite(one) else 0.0 for one in limits)
     row.lag_on, row.lag = int(monitor.lag is not None), monitor.lag or 0.0
+    encoder = AxisEncoderType.Simulation_Encoder if config.simulated else AxisEncoderType.TCom_Encoder_SoftDrive
+    row.encoder_type = int(encoder)
 
 
 def _fitting(text: str, room: int) -> str:

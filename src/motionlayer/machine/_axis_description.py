@@ -1,7 +1,7 @@
 """The table of an axis and what it holds beside its drive and its homing: modulo view, manual motion."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Final
 
 from pydantic import Field, ValidationInfo, field_validator
 from pydantic_core import PydanticCustomError
@@ -9,6 +9,7 @@ from pydantic_core import PydanticCustomError
 from motionlayer.machine._drive_description import DriveDescription, MonitorDescription
 from motionlayer.machine._fields import Acceleration, Jerk, Position, Table, Text, Velocity, Width, Window
 from motionlayer.machine._home_description import HomeDescription
+from motionlayer.profile import RANGES
 
 
 def _same_as(field: str) -> Callable[[dict[str, Any]], Any]:
@@ -46,6 +47,10 @@ class ManualDescription(Table):
     backward: Window = Field(default=1.0, description="Step of inching in negative direction (u), > 0.")
 
 
+SEARCH_TIME: Final = 600.0
+"""Seconds of a homing's search that bound its way where nothing else does."""
+
+
 class AxisDescription(Table):
     """One axis: `[axis.X]`."""
 
@@ -71,6 +76,7 @@ class AxisDescription(Table):
     )
     jerk: Jerk = Field(
         default_factory=_same_as("max_jerk"),
+        validate_default=True,
         description="Jerk of a command that names none (u/s³), > 0 and at most max_jerk, its default.",
     )
     software_limit_min: Position | None = Field(
@@ -100,6 +106,21 @@ class AxisDescription(Table):
         default_factory=MonitorDescription, description="What is watched on the axis; nothing by default."
     )
 
+    @property
+    def longest_search(self) -> float:
+        """The longest way of a homing's search, u; a switch may lie outside the software limits."""
+        if self.home.travel is not None:
+            return self.home.travel
+        if self.software_limit_min is None or self.software_limit_max is None:
+            return SEARCH_TIME * self.home.velocity
+        return 2.0 * (self.software_limit_max - self.software_limit_min)
+
+    @property
+    def weak_torque(self) -> float | None:
+        """What the torque of the drive allows, u/s², where the axis may ask for more; None where it may not."""
+        torque, asked = self.drive.max_acceleration, max(self.max_acceleration, self.max_deceleration)
+        return torque if torque is not None and torque < asked else None
+
     @field_validator("velocity", "acceleration", "deceleration", "jerk")
     @classmethod
     def _at_most_maximum(cls, value: float, info: ValidationInfo) -> float:
@@ -107,6 +128,21 @@ class AxisDescription(Table):
         maximum = info.data.get(name)
         if maximum is not None and value > maximum:
             raise PydanticCustomError("relation", "relation", {"allowed": f"at most {name} = {maximum}"})
+        return value
+
+    @field_validator("max_jerk", "jerk")
+    @classmethod
+    def _phases_side_by_side(cls, value: float, info: ValidationInfo) -> float:
+        own = "max_" if info.field_name == "max_jerk" else ""
+        names = ("max_velocity", f"{own}acceleration", f"{own}deceleration")
+        if any(info.data.get(name) is None for name in names):
+            return value
+        velocity, acceleration, deceleration = (info.data[name] for name in names)
+        weakest = min(acceleration, deceleration)
+        most = RANGES.phases * weakest * weakest / velocity  # V/A over A/J, as every command is asked
+        if value > most:
+            allowed = f"at most {most:.6g} beside {names[0]} = {velocity} and the weaker acceleration {weakest}"
+            raise PydanticCustomError("relation", "relation", {"allowed": allowed})
         return value
 
     @field_validator("manual")

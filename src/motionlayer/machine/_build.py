@@ -28,9 +28,6 @@ from motionlayer.store import Q, Store
 
 SIGN = {"positive": 1.0, "negative": -1.0}
 
-SEARCH_TIME = 600.0
-"""Seconds of a homing's search that bound its way where nothing else does."""
-
 
 class Parts(NamedTuple):
     """What a run is made of."""
@@ -87,7 +84,7 @@ def _axis_config(name: str, entry: AxisDescription) -> AxisConfig:
             entry.manual.forward,
             entry.manual.backward,
         ),
-        monitor=MonitorConfig(**dict(entry.monitor)),
+        monitor=MonitorConfig(**dict(entry.monitor), torque=entry.weak_torque),
         modulo=_modulo_config(entry.modulo),
         simulated=entry.drive.kind == "ideal",
     )
@@ -106,17 +103,10 @@ def _home_config(entry: AxisDescription) -> HomeConfig:
         direction=direction,
         sync_velocity=home.velocity if home.sync_velocity is None else home.sync_velocity,
         sync_direction=-direction if home.sync_direction is None else SIGN[home.sync_direction],
-        travel=_longest_search(entry) if home.travel is None else home.travel,
+        travel=entry.longest_search,
         pulse_distance=home.pulse_distance,
         latches=tuple(HomingMode(mode) for mode, key in LATCH_KEYS.items() if getattr(home, key) is not None),
     )
-
-
-def _longest_search(entry: AxisDescription) -> float:
-    """Return the longest way of a search that names none: a switch may lie outside the software limits."""
-    if entry.software_limit_min is None or entry.software_limit_max is None:
-        return SEARCH_TIME * entry.home.velocity
-    return 2.0 * (entry.software_limit_max - entry.software_limit_min)
 
 
 def _latches(store: Store, description: Description) -> Latches | None:

@@ -4,6 +4,7 @@ import math
 
 
 def table(data: object, key: str) -> dict[str, object]:
+    """Return a table of a table, without what is wrong in it; an empty one where there is none."""
     value = data.get(key) if isinstance(data, dict) else None
     if not isinstance(value, dict):
         return {}

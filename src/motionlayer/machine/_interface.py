@@ -1,28 +1,37 @@
 """The interface of a machine's motion layer, as a control side is told of it."""
 
-from motionlayer.iec.export import Declarations
-from motionlayer.layer import Features, Globals, control_side
-from motionlayer.machine._layering import layer_options, layer_sizes
-from motionlayer.machine._machine import Machine
+from motionlayer.iec import Array
+from motionlayer.iec.export import Declarations, Variable, VariableList
+from motionlayer.layer import control_side
+from motionlayer.machine._drive_symbols import fault_variable
+from motionlayer.machine._machine_run import MachineRun
 
 
-def interface(machine: Machine) -> Declarations:
+def interface(run: MachineRun) -> Declarations:
     """Return what the control side of a machine declares: types, constants, variables.
 
     Args:
-        machine: with a motion layer, or a control side itself.
+        run: of a machine with a motion layer, or of a control side itself. The namespaces that its programs have
+            declared so far belong to it.
 
     Raises:
         ValueError: it has neither.
     """
-    described = machine.description
-    axes = len(described.axis)
-    if described.layer is not None:
-        options = layer_options(described.layer, axes)
-        shared = Globals(options.sizes, options.features)
-    elif described.control is not None:
-        axes = len(described.control.axes)
-        shared = Globals(layer_sizes(described.control, axes), Features())
-    else:
-        raise ValueError(f"{described.name} has no motion layer: add [layer] to the machine file, or [control]")
-    return control_side(shared, f"motionlayer: interface of {described.name}, {axes} axes")
+    shared, name = run.layer.globals, run.machine.name
+    axes = shared.sizes.max_axis
+    title = f"motionlayer: interface of {name}, {axes} axes"
+    return control_side(shared, title, [*_machine_lists(axes), *run.namespaces.exported()])
+
+
+def _machine_lists(axes: int) -> list[VariableList]:
+    """Return the lists beside the layer: what only simulated machines have, and the objects with methods."""
+    from motionlayer.machine._ads_motion import NAME, MotionAxis  # noqa: PLC0415 - with all blocks, for exports alone
+
+    faults, (motion, objects) = fault_variable(axes), NAME.split(".")
+    simulation, fault = faults.name.split(".")
+    comment = "what goes wrong with a simulated drive; a change of eFault is a command"
+    methods = "what has become of the last method that was called; methods are called by ADS"
+    return [
+        VariableList(simulation, [Variable(fault, faults.type, comment, written=True, optional=True)]),
+        VariableList(motion, [Variable(objects, Array(MotionAxis.type, (1, axes)), methods)]),
+    ]

@@ -73,6 +73,13 @@ class SizesDescription(Table):
     max_message: int = Field(
         default=200, ge=1, le=10_000, description="MAX_MESSAGE: messages in a list of GVL_MSG_AXIS, 1 to 10 000."
     )
+    max_other_message: int = Field(
+        default=20,
+        ge=1,
+        le=10_000,
+        description="MAX_MESSAGE of GVL_MSG: messages in each of its four lists, which nobody writes to a file, 1 to "
+        "10 000; the original has 2000.",
+    )
 
 
 class DivisorDescription(Table):
@@ -109,12 +116,18 @@ class MapDescription(Table):
         default=None,
         description="The map also holds the parameter selector; default: true for a map of all axes. Group axis alone.",
     )
+    switches: bool = Field(
+        default=False,
+        description="The map also holds the limit switches of its axes, AxisLimitSwitches, which the original has no "
+        "image of. Group axis alone.",
+    )
 
     @model_validator(mode="after")
-    def _selector_of_axes(self) -> "MapDescription":
-        if self.selector and self.group != "axis":
-            allowed = f'false: the parameter selector goes with group "axis", not "{self.group}"'
-            raise PydanticCustomError("relation", "relation", {"allowed": allowed})
+    def _of_axes_alone(self) -> "MapDescription":
+        for asked, what in ((self.selector, "the parameter selector goes"), (self.switches, "limit switches go")):
+            if asked and self.group != "axis":
+                allowed = f'false: {what} with group "axis", not "{self.group}"'
+                raise PydanticCustomError("relation", "relation", {"allowed": allowed})
         return self
 
 
@@ -174,3 +187,4 @@ class ControlDescription(SizesDescription):
         description="What is mapped there for this machine, as the group of a map.",
     )
     selector: bool = Field(default=True, description="The map there also holds the parameter selector.")
+    switches: bool = Field(default=False, description="The map there also holds limit switches.")

@@ -9,7 +9,8 @@ from typing import Any, Final
 from pydantic import ValidationError
 
 from motionlayer.machine._description import Description
-from motionlayer.machine._errors import MachineError, OldName
+from motionlayer.machine._doubts import doubts
+from motionlayer.machine._errors import Finding, MachineError, OldName
 from motionlayer.machine._fragment import Fragment, Origin, Report, in_order
 from motionlayer.machine._modules import flattened
 from motionlayer.machine._names import SECTIONS
@@ -63,6 +64,26 @@ def check_description(data: dict[str, Any], *, file: str | os.PathLike[str] | No
         OldName: a key has another name now, and the next version does not read the old one.
     """
     return _checked(Fragment(None if file is None else os.fspath(file), data))
+
+
+def doubtful(path: str | os.PathLike[str]) -> list[Finding]:
+    """Return what a machine file may say, and what can hardly be meant, in the order of the files.
+
+    Args:
+        path: a machine file that `load_description` takes.
+
+    Raises:
+        MachineError: it does not.
+    """
+    file = os.fspath(path)
+    text = read_text(file)
+    fragment, report = Fragment(file, parse(text, file), text), Report()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", OldName)  # said when the file was loaded
+        description = _checked(fragment)
+    flat = flattened(fragment, report)
+    found = [in_units(one, flat.data) for one in doubts(description)]
+    return in_order([flat.origin(one.path).finding(one) for one in found], file)
 
 
 def _checked(fragment: Fragment) -> Description:

@@ -39,6 +39,9 @@ class Machine:
         """
         return cls(check_description(data), Path())
 
+    def __repr__(self) -> str:
+        return f"<Machine {self.name}: {len(self.description.axis)} axes>"
+
     @property
     def name(self) -> str:
         """Name of the machine."""

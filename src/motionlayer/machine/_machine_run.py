@@ -1,26 +1,21 @@
 """`MachineRun`: a machine that runs, whatever sets the pace."""
 
-import difflib
 import functools
 import hashlib
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeVar
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from motionlayer.command import Command, all_of
-from motionlayer.drive import Fault
 from motionlayer.fb import AXIS_REF
-from motionlayer.machine._ads_axes import AdsAxes
-from motionlayer.machine._ads_description import AdsDescription
-from motionlayer.machine._ads_run import ServedRun
+from motionlayer.machine._axes import Axes
 from motionlayer.machine._build import Parts, build
+from motionlayer.machine._disturbing import DisturbedRun
 from motionlayer.machine._logging import Logging
 from motionlayer.machine._machine import Machine
-from motionlayer.machine._outside import EMERGENCY_STOP, INJECT, pack_fault, unpack_fault
 from motionlayer.machine._persistence import Persistence, load_kept
 from motionlayer.machine._programs import Loaded, load_program, sources_of
 from motionlayer.machine._run_keywords import USUAL, RunKeywords
@@ -29,22 +24,11 @@ from motionlayer.record import End, Trace
 from motionlayer.runtime import LATE, Lateness, Program, Stage, Step, TaskConfig
 
 if TYPE_CHECKING:
-    from motionlayer.nc import Axis
+    from motionlayer.machine._ads_axes import AdsAxes
+    from motionlayer.machine._ads_description import AdsDescription
 
 
-V = TypeVar("V")
-
-
-class Axes(dict[str, V]):
-    """The axes of a machine, or their interfaces, by name."""
-
-    def __missing__(self, name: str) -> NoReturn:
-        near = difflib.get_close_matches(name, self, n=1)
-        hint = f"; did you mean {near[0]!r}?" if near else ""
-        raise KeyError(f"no axis {name!r}; this machine has {', '.join(self) or 'none'}{hint}")
-
-
-class MachineRun(ServedRun):
+class MachineRun(DisturbedRun):
     """A run of a machine; what `Simulation` and `RealTime` have in common, and raise when they are made.
 
     Args:
@@ -69,8 +53,7 @@ class MachineRun(ServedRun):
         persistent = description.persistent_file
         kept = None if persistent is None else load_kept(machine.folder / persistent, description.axis)
         parts = build(description, self.seed)
-        self.axes: Mapping[str, Axis] = Axes(parts.axes)
-        """The axes by name."""
+        self.axes = Axes(parts.axes)
         self._stage = parts.stage
         self._servos = parts.servos
         self._closed = False
@@ -90,7 +73,7 @@ class MachineRun(ServedRun):
         self._connect(parts)
         self._persistence = None if kept is None else Persistence(kept, lambda: self.axis_refs, self.mailbox)
         layer = self._add_layer(lambda: self.axis_refs, parts.stage)
-        self._arrange([*stages, *layer, self._open_ads(asked["ads"], own_process=not lossless)])
+        self._arrange([*stages, *layer, *self._open_ads(asked["ads"], own_process=not lossless)])
         for program in loaded:
             program.start(self)
 
@@ -112,11 +95,15 @@ class MachineRun(ServedRun):
             self.log.close()
             raise
 
-    def _open_ads(self, choice: AdsDescription | bool, *, own_process: bool) -> Stage:
-        """Return the stage of the ADS server; if that cannot begin, the files are closed again."""
+    def _ads_axes(self) -> "AdsAxes":
+        from motionlayer.machine._ads_axes import AdsAxes  # noqa: PLC0415 - most runs have no clients
+
+        return AdsAxes(self._known_symbols, lambda: self.axis_refs, lambda: self._stage.images, self._ledger)
+
+    def _open_ads(self, choice: "AdsDescription | bool", *, own_process: bool) -> Sequence[Stage]:
+        """Return the stages of the ADS server; if that cannot begin, the files are closed again."""
         try:
-            axes = AdsAxes(self._known_symbols, lambda: self.axis_refs, lambda: self._stage.images, self._ledger)
-            return self._add_ads(choice, axes, own_process=own_process)
+            return self._add_ads(choice, own_process=own_process)
         except BaseException:
             if self._tracing is not None:
                 self._tracing.close(self._how_ended())
@@ -135,63 +122,13 @@ class MachineRun(ServedRun):
         if self._tracing is not None:
             self._tracing.attach(self.mailbox)
         self.mailbox.register(LATE, Lateness(parts.ledger, parts.events, self._brake))
-        self.mailbox.register(INJECT, self._injected)
-        self.mailbox.register(EMERGENCY_STOP, self._emergency_stopped)
+        self._take_disturbances()
 
     @functools.cached_property
     def axis_refs(self) -> Mapping[str, AXIS_REF]:
         """The axes by name, as function blocks know them."""
         images, keep = self._stage.images, self._persistence.keep if self._persistence is not None else None
         return Axes((name, AXIS_REF(axis, images, index, keep)) for index, (name, axis) in enumerate(self.axes.items()))
-
-    def inject(self, axis: str, fault: Fault, tick: int | None = None) -> None:
-        """Let something go wrong with the servo drive of an axis.
-
-        Args:
-            axis: name of the axis.
-            fault: what.
-            tick: in whose inputs it shows first; the next tick where left out.
-
-        Raises:
-            KeyError: no such axis.
-            ValueError: its drive is ideal, or the tick has passed.
-        """
-        if self.machine.description.axis[self.axes[axis].name].drive.kind != "servo":
-            raise ValueError(f'{axis}: its drive is ideal, and never has a fault; set kind = "servo"')
-        earliest = self.tick + 1 if self._ledger.issuer is not None else self.tick
-        begin = earliest if tick is None else tick
-        if begin < earliest:
-            raise ValueError(
-                f"{axis}: a fault at tick {begin}, and tick {earliest} is the next whose inputs can show it"
-            )
-        self._note(INJECT, pack_fault(axis, fault, begin))
-        self._servos.inject(list(self.axes).index(axis), fault, begin)
-
-    def _injected(self, payload: bytes) -> None:
-        axis, fault, tick = unpack_fault(payload)
-        self._servos.inject(list(self.axes).index(axis), fault, tick)
-
-    def emergency_stop(self) -> Command[tuple[Any, ...]]:
-        """Stop all axes with their maximum dynamics, also those that stop more gently already.
-
-        What stands takes no command; an axis in error brakes by itself.
-
-        Returns:
-            A command that is done when all rest; until then they take no other motion.
-        """
-        self._note(EMERGENCY_STOP)
-        return self._brake()
-
-    def _emergency_stopped(self, _payload: bytes) -> None:
-        self._brake()
-
-    def _brake(self) -> Command[tuple[Any, ...]]:
-        return all_of(*[axis.emergency_stop() for axis in self.axes.values() if axis.command is not None])
-
-    def _note(self, channel: str, payload: bytes = b"") -> None:
-        """Record what is done to the run from outside; what programs do follows from them."""
-        if self._ledger.issuer is None and not self.ticking:
-            self.mailbox.note(channel, payload)
 
     def random(self, name: str) -> np.random.Generator:
         """Return a stream of random numbers of its own, keyed by the seed of the run and a name."""
@@ -233,7 +170,7 @@ class MachineRun(ServedRun):
         self._closed = True
         self._scheduler.cancel_all()
         self.mailbox.close()
-        self.ads.close()
+        self._close_ads()
         try:
             return self._tracing.close(self._how_ended()) if self._tracing is not None else ""
         finally:
@@ -241,6 +178,9 @@ class MachineRun(ServedRun):
 
     def _how_ended(self) -> End:
         return End(self.tick, self.ending, inside=self._broken or self.ticking)
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of {self.machine.name} at {self.time:.9g} s>"
 
     def __enter__(self) -> Self:
         return self

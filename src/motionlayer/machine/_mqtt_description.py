@@ -1,12 +1,14 @@
 """The table `[ads.mqtt]`: a broker by which ADS clients reach the server too."""
 
-from typing import Annotated, TypeAlias
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 from pydantic import AfterValidator, Field
 from pydantic_core import PydanticCustomError
 
-from motionlayer.connect.ads import Mqtt
 from motionlayer.machine._fields import Table, Text
+
+if TYPE_CHECKING:
+    from motionlayer.connect.ads import Mqtt
 
 
 def _prefix(text: str) -> str:
@@ -33,10 +35,12 @@ class MqttDescription(Table):
         "there once, so `net_id` is best one of its own.",
     )
 
-    def mqtt(self, name: str) -> Mqtt:
+    def mqtt(self, name: str) -> "Mqtt":
         """Return the same for the server.
 
         Args:
             name: of the machine, which the other members of the network see.
         """
+        from motionlayer.connect.ads import Mqtt  # noqa: PLC0415 - where a machine has [ads.mqtt]
+
         return Mqtt(self.broker, self.port, self.network, name)

@@ -17,6 +17,9 @@ INJECT: Final = "inject"
 EMERGENCY_STOP: Final = "emergency_stop"
 """The channel of emergency stops; its payload is empty."""
 
+REFUSED: Final = "ads.refused"
+"""The channel by which the ADS server tells whom it has refused."""
+
 LINK: Final = "link"
 """The channel by which the link of a control side tells that its connection is broken."""
 

@@ -6,7 +6,9 @@ import importlib.util
 import inspect
 import sys
 from collections.abc import Callable, Coroutine
+from importlib.machinery import SOURCE_SUFFIXES, SourceFileLoader
 from pathlib import Path
+from types import CodeType
 from typing import Any, NamedTuple, cast
 
 from motionlayer.machine._machine import Machine
@@ -84,7 +86,7 @@ def load_program(source: Source) -> Loaded:
         text = source.file.read_bytes()
     except OSError as error:
         raise ProgramError(f"program {source.name}: {source.file} cannot be read: {error.strerror}") from error
-    module = _import(source)
+    module = _import(source, text)
     function = getattr(module, source.function, None)
     if function is None:
         known = [name for name, value in vars(module).items() if inspect.iscoroutinefunction(value)]
@@ -121,16 +123,37 @@ def _task(source: Source, function: Callable[..., object]) -> str | None:
     return None if coroutine else source.task or MAIN
 
 
-def _import(source: Source) -> object:
+class _Loader(SourceFileLoader):
+    """Loads the very text whose SHA-256 is recorded: cached bytecode may be that of a file changed within its second.
+
+    Args:
+        name: of the module.
+        path: of the file.
+        text: that it holds.
+    """
+
+    def __init__(self, name: str, path: str, text: bytes) -> None:
+        super().__init__(name, path)
+        self._text = text
+
+    def get_code(self, fullname: str) -> CodeType:
+        """Return what the module executes."""
+        return self.source_to_code(self._text, self.get_filename(fullname))
+
+
+def _import(source: Source, text: bytes) -> object:
     folder = str(source.file.resolve().parent)
     if folder not in sys.path:  # so that a program can import what lies beside it, as a script can
         sys.path.insert(0, folder)
-    spec = importlib.util.spec_from_file_location(f"motionlayer_program_{source.name}", source.file)
-    if spec is None or spec.loader is None:
+    if source.file.suffix not in SOURCE_SUFFIXES:
         raise ProgramError(f"program {source.name}: {source.file} is not a Python file; its name must end in .py")
+    name = f"motionlayer_program_{source.name}"
+    loader = _Loader(name, str(source.file.absolute()), text)
+    spec = importlib.util.spec_from_file_location(name, source.file, loader=loader)
+    assert spec is not None
     module = importlib.util.module_from_spec(spec)
     try:
-        spec.loader.exec_module(module)
+        loader.exec_module(module)
     except (Exception, SystemExit) as error:
         raise ProgramError(f"program {source.name}: {source.file}: {type(error).__name__}: {error}") from error
     return module

@@ -3,12 +3,15 @@
 import re
 import tomllib
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, Final, NoReturn
 
 from motionlayer.machine._errors import Finding, MachineError
 from motionlayer.machine._locate import statement_start
 
 _POSITION = re.compile(r"(?P<message>.*?) \(at (?:line (?P<line>\d+), column \d+|end of document)\)", re.DOTALL)
+_COMMA = re.compile(r"[^#\"']*=\s*[-+]?\d+,\d")
+DECIMAL_COMMA: Final = "numbers have a decimal point, and no separator but _"
+
 _TWICE = ("Cannot declare", "Cannot overwrite", "Cannot mutate", "Duplicate inline table key")
 
 
@@ -53,7 +56,13 @@ def parse(text: str, file: str) -> dict[str, Any]:
             _refuse(file, "this key or table is already defined above", line)
         # At the end of the text only the begin of what was never closed tells where to look.
         line = known or statement_start(text, text.count("\n") + 1)
-        _refuse(file, f"not valid TOML: {message[:1].lower()}{message[1:]}", line)
+        hint = DECIMAL_COMMA if _COMMA.match(_line(text, line)) else ""
+        _refuse(file, f"not valid TOML: {message[:1].lower()}{message[1:]}", line, hint)
+
+
+def _line(text: str, number: int) -> str:
+    """Return a line of a text, from 1; "" where there is none."""
+    return next(iter(text.splitlines()[number - 1 : number]), "")
 
 
 def _refuse(file: str, problem: str, line: int | None = None, hint: str = "") -> NoReturn:

@@ -81,6 +81,11 @@ class RealTime(MachineRun):
         with self._in_time():
             return super().advance(time, watch=watch)
 
+    def advance_until(self, predicate: Callable[[], bool], time: float) -> bool:
+        """Run as `SteppedRun.advance_until`, under the same conditions."""
+        with self._in_time():
+            return super().advance_until(predicate, time)
+
     @contextlib.contextmanager
     def _in_time(self) -> Iterator[None]:
         with self._conditions.held():
@@ -90,7 +95,8 @@ class RealTime(MachineRun):
     def _set_off(self) -> None:
         super()._set_off()
         self.log.align(self.tick)
-        self.ads.time.align(self.tick)
+        if self.serves_ads:
+            self.ads.time.align(self.tick)
 
     def _idle(self, spare_ns: int) -> None:
         self._meter.forget()
@@ -98,7 +104,8 @@ class RealTime(MachineRun):
 
     def _slipped(self, ns: int) -> None:
         self.log.slip(ns)
-        self.ads.time.slip(ns)
+        if self.serves_ads:
+            self.ads.time.slip(ns)
 
     def _late(self, ticks: int) -> None:
         name, ns = self._meter.slowest()

@@ -1,5 +1,6 @@
 """Snapshots of a machine's run, and its way back to the beginning."""
 
+import abc
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -18,7 +19,7 @@ class _Kept(NamedTuple):
     mark: Mark | None
 
 
-class ResettableRun(SteppedRun):
+class ResettableRun(SteppedRun, abc.ABC):
     """A run of a machine that can go back.
 
     Attributes:
@@ -108,10 +109,10 @@ class ResettableRun(SteppedRun):
         if self._tracing is not None and kept.mark is not None:
             self._tracing.go_back(kept.mark, seed=kept.seed)
 
+    @abc.abstractmethod
     def _require_open(self) -> None:
         """Make sure that the run can go on.
 
         Raises:
             RuntimeError: it has been closed.
         """
-        raise NotImplementedError

@@ -28,6 +28,16 @@ _KINDS = {
 # Error types that say the kind is right and the value is not: then the range alone is named.
 _RANGE_ONLY = frozenset({"greater_than", "greater_than_equal", "less_than", "less_than_equal"})
 
+# What other controllers and papers call it.
+_OTHER_NAMES = {
+    "max_torque": "max_acceleration",
+    "torque_limit": "max_acceleration",
+    "kv": "position_gain",
+    "kv_factor": "position_gain",
+    "following_error": "lag",
+    "position_lag": "lag",
+}
+
 # Follows from another error that is reported itself.
 _CONSEQUENCES = frozenset({"default_factory_not_called"})
 
@@ -92,8 +102,11 @@ def _unit(field: dict[str, Any]) -> str:
 
 
 def _meant(path: KeyPath) -> KeyPath:
-    """Return the path of the known key that an unknown one resembles most, or the path itself."""
+    """Return the path of the known key that an unknown one means or resembles most, or the path itself."""
     key = str(path[-1])
+    other = _OTHER_NAMES.get(key.lower())
+    if other in _known_keys(path):
+        return (*path[:-1], other)
     near = difflib.get_close_matches(key.lower(), _known_keys(path), n=1)
     return (*path[:-1], near[0]) if near else path
 

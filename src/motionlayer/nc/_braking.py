@@ -5,6 +5,7 @@ from typing import Unpack
 
 from motionlayer.event import Kind, Level
 from motionlayer.nc._keywords import BrakeKeywords, HaltKeywords, checked
+from motionlayer.nc._limits import least_pull
 from motionlayer.nc._motion import BRAKES, Asked, AxisCommand, HeldCommand, Job, JobKind
 from motionlayer.nc._states import TRANSITIONS, AxisEvent, AxisState
 from motionlayer.nc._submission import AxisSubmission
@@ -98,12 +99,17 @@ class AxisBraking(AxisSubmission):
             self._tell(Level.WARNING, Kind.MESSAGE, text)
 
     def _braking(self, command: AxisCommand, asked: Asked) -> Limits | None:
-        """Return the dynamics of a brake; None if they are refused."""
+        """Return the dynamics of a brake; None if they are refused.
+
+        It falls not short of what it brakes, and is never too weak to be planned: nothing else stops the axis.
+        """
         limits = self._dynamics(command, asked)
         if limits is None:
             return None
-        running, (_, _, deceleration, jerk) = self._chained(), asked
+        running, (_, _, deceleration, own_jerk) = self._chained(), asked
+        jerk = max(running.jerk, limits.jerk if own_jerk is not None else 0.0)
+        own = limits.deceleration if deceleration is not None else 0.0
+        least = least_pull(max(running.velocity, abs(self.set_velocity)), jerk)
         return running._replace(
-            deceleration=max(running.deceleration, limits.deceleration if deceleration is not None else 0.0),
-            jerk=max(running.jerk, limits.jerk if jerk is not None else 0.0),
+            acceleration=max(running.acceleration, least), deceleration=max(running.deceleration, own, least), jerk=jerk
         )

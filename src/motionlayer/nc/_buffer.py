@@ -14,9 +14,10 @@ from motionlayer.nc._axis_ref import BUFFERED
 from motionlayer.nc._chaining import AxisChaining, stronger
 from motionlayer.nc._config import AxisConfig, BufferMode
 from motionlayer.nc._follower import Buffering, Follower
-from motionlayer.nc._limits import bad_target, unplanned
+from motionlayer.nc._limits import bad_target, too_weak
 from motionlayer.nc._motion import DEFINITE, SCALED, AxisCommand, Job, JobKind, Refusal
-from motionlayer.nc._ways import Point, Way, arrival, scaled, way_of
+from motionlayer.nc._through import Point, Way, arrival
+from motionlayer.nc._ways import scaled, way_of
 from motionlayer.profile import PlanError
 from motionlayer.store import JOB_BRAKE, JOB_COMPOUND, Ended, Q, Store
 
@@ -60,16 +61,20 @@ class AxisBuffer(AxisChaining):
         if not math.isfinite(place):
             return Refusal(ErrorId.TARGET_NOT_FINITE, f"blending_position = {place}")
         heading = arrival(self._here, end, scaled(job, self.override))
-        if (end - place) * heading < 0.0:
-            return Refusal(ErrorId.BLENDING_POSITION, f"blending_position = {place}, it must lie before {end} {unit}")
-        return place if (place - self.set_position) * heading > 0.0 else None
+        behind = (end - place) * heading < 0.0
+        if not behind and (place - self.set_position) * heading > 0.0:
+            return place
+        if behind or (place - job.start) * heading < 0.0:
+            allowed = f"allowed: from {job.start}, where the running command began, to {end} {unit}"
+            return Refusal(ErrorId.BLENDING_POSITION, f"blending_position = {place}, {allowed}")
+        return None
 
     def _follow(self, job: Job, buffering: Buffering, text: str) -> None:
         """Let a job wait for the running one, or refuse it and change nothing."""
         running, command = self._job, job.command
         assert running is not None
         assert command is not None
-        follower = Follower(job, buffering)
+        follower = Follower(job, buffering, held=self._held)
         limits = running.limits
         if job.kind is JobKind.HALT:
             running.limits = stronger(limits, job.limits)
@@ -80,6 +85,7 @@ class AxisBuffer(AxisChaining):
             return
         self._accept(command, text)
         self._set_follower(follower)
+        follower.heading = 0.0 if ways[0] is None else ways[0].heading
         if self._hands_over(running, follower):
             self._chain(running, follower, *ways)
 
@@ -97,7 +103,9 @@ class AxisBuffer(AxisChaining):
         job, end, here, factor = follower.job, self._end_of(running), self.set_position, self.override or 1.0
         if follower.buffering.blends and job.kind is JobKind.POSITION and job.target == end:
             return Refusal(ErrorId.SAME_END_POSITION, f"target = {end} {self.config.unit}, as of the running command")
-        refusal = bad_target(self.config, job, end)
+        fastest = max(running.limits.velocity, job.limits.velocity)
+        refusal = bad_target(self.config, job, end) or too_weak(job, fastest, self.config.unit)
+        refusal = refusal or too_weak(running, fastest, self.config.unit)
         if refusal is not None:
             return refusal
         try:
@@ -107,7 +115,7 @@ class AxisBuffer(AxisChaining):
             start = Point(end, 0.0, 0.0) if first is None else first.end
             second = self._second(job, start, factor)
         except PlanError as error:
-            return unplanned(job, self.config.unit, error)
+            return Refusal(ErrorId.INTERNAL, str(error))
         objection = self._objection(running, first, here) if first is not None else None
         objection = objection or self._objection(job, second, start.p)
         if objection is not None:
@@ -120,7 +128,7 @@ class AxisBuffer(AxisChaining):
         follower.way = second
         if first is not None:
             self._adopt(running, first)
-            follower.heading = math.copysign(1.0, first.end.v) if first.end.v != 0.0 else 0.0
+            follower.heading = follower.heading if follower.beyond else first.heading
         self._store.append(self._column, follower.way.profile.pieces)
         self._values[Q.JOB_KIND] = JOB_COMPOUND if running.kind in SCALED else JOB_BRAKE
 
@@ -176,6 +184,7 @@ class AxisBuffer(AxisChaining):
             self._chain(job, follower, first, self._second(follower.job, first.end, self.override))
             return
         if follower is not None and self._held:
+            follower.held = True
             self._lend(job, follower)
         self._passed_already(job)
         self._adopt(job, self._planned(job))

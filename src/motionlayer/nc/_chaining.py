@@ -2,8 +2,8 @@
 
 The rules of the joint are those of `_ways`. Once the running job is to pass its joint in motion, both are one motion:
 
-- near the joint it can no longer come to rest before it, and keeps its direction whatever the override does; only what
-  override 0 has carried past the joint, or too near to it for its acceleration to be taken back, comes back to it;
+- near the joint it can no longer come to rest before it, and keeps its direction whatever the override does; what
+  override 0 has carried past the joint, or too near to it for its acceleration to be taken back, is handed over there;
 - only the way of both has been checked against the software limits. Where something brakes the axis on it (the
   override at 0, a halt) that is done as hard as the follower would brake: alone, the running job might come to rest far
   behind.
@@ -18,8 +18,9 @@ from motionlayer.nc._follower import Follower
 from motionlayer.nc._joints import joint_speeds
 from motionlayer.nc._motion import Job, JobKind, Refusal
 from motionlayer.nc._planning import AxisPlanning
-from motionlayer.nc._ways import Point, Way, arrival, scaled, through, way_of
-from motionlayer.profile import Limits, PlanError, stop_at
+from motionlayer.nc._through import Point, Way, arrival, remaining, settled, through
+from motionlayer.nc._ways import scaled, way_of
+from motionlayer.profile import Limits, plan_stop, stop_at
 from motionlayer.store import Q, Store
 
 
@@ -97,17 +98,44 @@ class AxisChaining(AxisPlanning):
         """Plan the running job up to a joint that was accepted before, with the override.
 
         What override 0 holds brakes without regard to the joint. It may be carried past it, or so near to it that the
-        acceleration cannot be taken back before: its rest lies behind the joint then, and it comes back to it.
+        acceleration cannot be taken back before.
 
         Raises:
             PlanError: a plan failed its check.
         """
-        first = self._first(running, follower, self.override)
-        if isinstance(first, Refusal):
-            first = self._to_joint(running, follower, -self._arriving(running, follower), self.override)
-        if isinstance(first, Refusal):
-            raise PlanError(first.detail)
-        return first
+        if follower.held and self._carried_past(running, follower):
+            follower.beyond = True
+        first = None if follower.beyond else self._first(running, follower, self.override)
+        if isinstance(first, Way):
+            return first
+        follower.beyond, follower.heading = True, follower.heading or math.copysign(1.0, self.set_velocity)
+        return self._beyond(running, follower)
+
+    def _carried_past(self, running: Job, follower: Follower) -> bool:
+        """Tell whether a joint lies behind; who comes to it only after a turn has not been there yet."""
+        way = self._place(running, follower) - self.set_position
+        return way * follower.heading < 0.0 <= self.set_velocity * follower.heading
+
+    def _beyond(self, running: Job, follower: Follower) -> Way:
+        """Plan the running job to where its follower takes over if the joint is as good as passed.
+
+        That is where its acceleration has been taken back; where the follower could not brake from there, it goes on
+        braking, and the follower takes over at rest. Nothing turns back for the joint, nor for a target behind that
+        the follower is to pass.
+
+        Raises:
+            PlanError: a plan failed its check.
+        """
+        limits, heading, job = scaled(running, self.override), follower.heading, follower.job
+        way = Way(plan_stop(*self._here, limits), limits)
+        if heading * remaining(self._here, limits.jerk) > 0.0:
+            onward = settled(self._here, limits)
+            speeds = self.config, follower.buffering.mode, limits, heading, onward.end.p, job, self.override
+            asked, highest = joint_speeds(*speeds)
+            way = onward if asked > 0.0 and heading * onward.end.v <= highest else way
+        if job.kind is JobKind.CONTINUOUS and (job.target - way.end.p) * heading <= 0.0:
+            job.passed = heading
+        return way
 
     def _second(self, job: Job, start: Point, factor: float) -> Way:
         """Plan the follower from its joint; passed in motion, it goes on in that direction.
@@ -125,7 +153,7 @@ class AxisChaining(AxisPlanning):
         The way of both was checked, and not that on which the running job would come to rest alone.
         """
         place = self._place(running, follower)
-        heading = self._passing(place, follower)
+        heading = self._passing(place, follower) if follower.way is not None else 0.0  # else this hold came before it
         if (stop_at(*self._here, running.limits) - place) * heading > 0.0:
             running.limits = stronger(running.limits, follower.job.limits)
 

@@ -97,7 +97,9 @@ class AxisCore(AxisProgress):
             if not _is_held(job):
                 self._at_rest(job)
         elif seen.error is not None and self._state is not AxisState.ERRORSTOP and (waited or not seen.of_target):
-            self.fault(seen.error, f"{seen.text} {self.config.unit}{seen.per}")
+            unit = self.config.unit
+            weak = "" if seen.torque is None else f"; the torque of the drive allows {seen.torque:.9g} {unit}/s²"
+            self.fault(seen.error, f"{seen.text} {unit}{seen.per}{weak}")
 
     def _profile_ended(self, ended: Ended) -> None:
         """Take up that the profile came to its last piece."""

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from motionlayer.nc._config import BufferMode
 from motionlayer.nc._motion import Job
-from motionlayer.nc._ways import Way
+from motionlayer.nc._through import Way
 
 
 class Buffering(NamedTuple):
@@ -37,9 +37,13 @@ class Follower:
         buffering: how it follows.
         way: its plan, where it is appended; None where it waits for more than the setpoint of the running job.
         heading: direction in which the joint is passed in motion; 0 where the running job comes to rest there.
+        held: override 0 has braked the running job while this one waits.
+        beyond: it has carried the running job past the joint, or as good as past it: nothing comes back to it.
     """
 
     job: Job
     buffering: Buffering
     way: Way | None = None
     heading: float = 0.0
+    held: bool = False
+    beyond: bool = False

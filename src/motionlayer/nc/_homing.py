@@ -158,7 +158,7 @@ class Homing:
         place, edge, least = self._port.latched(), self._edge_place, self._port.config.home.pulse_distance
         assert place is not None
         if abs(place - edge) < least:
-            self._port.fault(ErrorId.LATCH_TOO_CLOSE, f"{abs(place - edge)}, at least {least} {self._unit}")
+            self._port.fault(ErrorId.LATCH_TOO_CLOSE, f"{abs(place - edge):.9g}, at least {least} {self._unit}")
             return
         self._place = place
         self._port.brake(self._command)
@@ -184,7 +184,7 @@ class Homing:
         self._give_up(ErrorId.SYNC_PULSE_NOT_FOUND)
 
     def _give_up(self, error: ErrorId) -> None:
-        self._port.fault(error, f"within {self._port.config.home.travel} {self._unit}")
+        self._port.fault(error, f"home.travel = {self._port.config.home.travel:.9g} {self._unit}")
 
     @property
     def _unit(self) -> str:

@@ -6,7 +6,8 @@ from typing import Final
 
 from motionlayer.nc._config import AxisConfig, BufferMode
 from motionlayer.nc._motion import Job, JobKind
-from motionlayer.nc._ways import HALVINGS, brakeable_speed, limit_ahead, scaled
+from motionlayer.nc._through import HALVINGS
+from motionlayer.nc._ways import brakeable_speed, limit_ahead, scaled
 from motionlayer.profile import Limits, plan_velocity, stop_displacement
 
 BLENDED: Final[Mapping[BufferMode, Callable[[float, float], float]]] = {

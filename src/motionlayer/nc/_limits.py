@@ -9,8 +9,8 @@ from typing import Final
 
 from motionlayer.command import ErrorId
 from motionlayer.nc._config import AxisConfig
-from motionlayer.nc._motion import BOUNDED, SCALED, TARGETED, Job, JobKind, Refusal
-from motionlayer.profile import RANGES, PlanError, Profile
+from motionlayer.nc._motion import BOUNDED, BRAKES, SCALED, TARGETED, Job, JobKind, Refusal
+from motionlayer.profile import RANGES, Profile
 
 BLUR: Final = 1e-9
 """Share of positions and ways that counts as none; ten times what a plan may be off."""
@@ -79,18 +79,29 @@ def _time_to_target(job: Job, profile: Profile) -> float:
     return profile.duration
 
 
-def unplanned(job: Job, unit: str, error: PlanError) -> Refusal:
-    """Tell why a plan failed its check: an acceleration too weak beside the other limits, or a fault of ours.
+def least_pull(speed: float, jerk: float) -> float:
+    """Return the weakest acceleration or deceleration that is planned for certain: V/A is `RANGES.phases` times A/J."""
+    return math.sqrt(speed * jerk / RANGES.phases)
 
-    What is planned for certain has V/A at most `RANGES.phases` times A/J, and V/D times D/J.
+
+def too_weak(job: Job, speed: float, unit: str) -> Refusal | None:
+    """Tell why dynamics are not taken: their phases are farther apart than what is planned for certain.
+
+    They are judged whatever is planned with them first: a change of override or a brake has to be planned too. A brake
+    is never too weak (see `AxisBraking`).
+
+    Args:
+        job: what is asked for.
+        speed: with which it may begin, u/s.
+        unit: of the axis.
     """
     velocity, acceleration, deceleration, jerk = job.limits
-    weakest = min(acceleration, deceleration)
-    least = math.sqrt(velocity * jerk / RANGES.phases)
-    if weakest >= least:
-        return Refusal(ErrorId.INTERNAL, str(error))
+    weakest, fastest = min(acceleration, deceleration), max(velocity, speed)
+    least = least_pull(fastest, jerk)
+    if weakest >= least or job.kind in BRAKES:
+        return None
     name = "acceleration" if acceleration == weakest else "deceleration"
-    allowed = f"from {least:.6g} {unit}/s² on beside velocity = {velocity} and jerk = {jerk}"
+    allowed = f"from {least:.6g} {unit}/s² on beside velocity = {fastest} and jerk = {jerk}"
     return Refusal(ErrorId.ACCELERATION_TOO_SMALL, f"{name} = {weakest}, allowed: {allowed}")
 
 

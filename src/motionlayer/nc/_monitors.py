@@ -33,6 +33,7 @@ class MonitorConfig(NamedTuple):
         motion_window: with a job whose setpoint moves, the actual position changes by more than this in at least one
             cycle, u,
         motion_time: within this time.
+        torque: what the torque of the drive allows, u/s², where the axis may ask for more: named where it lags.
     """
 
     lag: float | None = None
@@ -46,6 +47,7 @@ class MonitorConfig(NamedTuple):
     velocity_lag_time: float = 0.0
     motion_window: float | None = None
     motion_time: float = 0.5
+    torque: float | None = None
 
     @property
     def any(self) -> bool:
@@ -62,12 +64,14 @@ class Seen(NamedTuple):
         error: what it means; None if the actual position came to the target that was waited for.
         text: values and limits, without the unit.
         per: what follows the unit of the axis in that of the values.
+        torque: what the torque of the drive allows, u/s², where that may be why; None where not.
     """
 
     column: int
     error: ErrorId | None
     text: str = ""
     per: str = ""
+    torque: float | None = None
 
     @property
     def of_target(self) -> bool:
@@ -75,17 +79,20 @@ class Seen(NamedTuple):
         return self.error is ErrorId.TARGET_TIMEOUT
 
 
-_MOTION: Final = "moved by no more than {config.motion_window} in any cycle for {config.motion_time} s, at {actual}"
+_MOTION: Final = "moved by no more than {config.motion_window} in any cycle for {config.motion_time} s, at {actual:.9g}"
 
 ERRORS: Final[tuple[tuple[int, ErrorId, str, str], ...]] = (
-    (bits.LAG_ERROR, ErrorId.LAG, "lag = {lag}, allowed: {config.lag}", ""),
-    (bits.RATE_ERROR, ErrorId.VELOCITY_LAG, "velocity lag = {rate}, allowed: {config.velocity_lag}", "/s"),
+    (bits.LAG_ERROR, ErrorId.LAG, "lag = {lag:.9g}, allowed: {config.lag}", ""),
+    (bits.RATE_ERROR, ErrorId.VELOCITY_LAG, "velocity lag = {rate:.9g}, allowed: {config.velocity_lag}", "/s"),
     (bits.MOTION_ERROR, ErrorId.NO_MOTION, _MOTION, ""),
-    (bits.BELOW, ErrorId.MINIMUM_PASSED, "actual position = {actual}, limit {low}", ""),
-    (bits.ABOVE, ErrorId.MAXIMUM_PASSED, "actual position = {actual}, limit {high}", ""),
-    (bits.ALARM, ErrorId.TARGET_TIMEOUT, "actual position = {actual}, target {target}", ""),
+    (bits.BELOW, ErrorId.MINIMUM_PASSED, "actual position = {actual:.9g}, limit {low}", ""),
+    (bits.ABOVE, ErrorId.MAXIMUM_PASSED, "actual position = {actual:.9g}, limit {high}", ""),
+    (bits.ALARM, ErrorId.TARGET_TIMEOUT, "actual position = {actual:.9g}, target {target:.9g}", ""),
 )
 """Bits that are errors, the gravest first: id, how the message goes on, and what follows the unit there."""
+
+_OF_TORQUE: Final = (ErrorId.LAG, ErrorId.VELOCITY_LAG)
+"""Errors that a drive without enough torque brings about."""
 
 
 class Monitors:
@@ -152,7 +159,9 @@ class Monitors:
                 values = zip(("lag", "actual", "low", "high", "target"), self._store.table[rows, column], strict=True)
                 rate = float(self._states[bits.RATE, self._index[column]]) / self._store.dt
                 told = {name: float(value) for name, value in values}
-                return Seen(column, error, text.format(**told, rate=rate, config=self._configs[column]), per)
+                config = self._configs[column]
+                torque = config.torque if error in _OF_TORQUE else None
+                return Seen(column, error, text.format(**told, rate=rate, config=config), per, torque)
         return Seen(column, None)
 
     def waits_for_target(self, column: int) -> bool:

@@ -160,6 +160,7 @@ class Job:
         arrived: the setpoint has come to its target, and something else is waited for: the actual position, a
             release.
         watched: the actual position is what is waited for.
+        start: set position at which it began, NaN before.
     """
 
     kind: JobKind
@@ -174,6 +175,7 @@ class Job:
     monitored: bool = False
     arrived: bool = False
     watched: bool = False
+    start: float = math.nan
 
 
 def number(name: str, value: object) -> float | None:

@@ -3,14 +3,15 @@
 import math
 from typing import Final
 
-from motionlayer.command import Ledger
+from motionlayer.command import ErrorId, Ledger
 from motionlayer.event import EventLog
 from motionlayer.nc._axis_ref import BEEN_STOPPED, HAS_JOB, NEW_TARGET
 from motionlayer.nc._base import AxisBase
 from motionlayer.nc._config import AxisConfig
-from motionlayer.nc._limits import bad_target, missing_feed, overrun, too_long, unplanned
+from motionlayer.nc._limits import bad_target, missing_feed, overrun, too_long, too_weak
 from motionlayer.nc._motion import BOUNDED, SCALED, Job, JobKind, Refusal
-from motionlayer.nc._ways import Point, Way, limit_ahead, way_of
+from motionlayer.nc._through import Point, Way
+from motionlayer.nc._ways import limit_ahead, way_of
 from motionlayer.profile import MAX_PIECES, Limits, PlanError
 from motionlayer.store import JOB_COMPOUND, JOB_OTHER, JOB_POSITION, JOB_VELOCITY, Q, Store
 
@@ -52,7 +53,7 @@ class AxisPlanning(AxisBase):
 
     def _checked(self, job: Job, start: Point) -> Way | Refusal:
         """Plan a job, or tell why it must not begin at `start`; how long it takes is judged at 1 where 0 holds it."""
-        refusal = bad_target(self.config, job, start.p)
+        refusal = bad_target(self.config, job, start.p) or too_weak(job, abs(start.v), self.config.unit)
         if refusal is not None:
             return refusal
         factor = self.override
@@ -60,7 +61,7 @@ class AxisPlanning(AxisBase):
             held = too_long(job, way_of(self.config, job, start, 1.0).profile, 1.0) if factor == 0.0 else None
             way = way_of(self.config, job, start, factor)
         except PlanError as error:
-            return unplanned(job, self.config.unit, error)
+            return Refusal(ErrorId.INTERNAL, str(error))
         return held or self._objection(job, way, start.p) or way
 
     def _objection(self, job: Job, way: Way, start: float) -> Refusal | None:
@@ -87,11 +88,13 @@ class AxisPlanning(AxisBase):
         values[Q.JOB_V] = job.limits.velocity
         values[Q.COMMAND] = job.command.number if job.command is not None else 0
         pieces, to_position = way.profile.pieces, job.kind is JobKind.POSITION
-        place, speed = pieces.item(-1, 1), pieces.item(-1, 2)
+        start, place, speed = pieces.item(0, 1), pieces.item(-1, 1), pieces.item(-1, 2)
+        if math.isnan(job.start):  # else it is planned anew
+            job.start = start
         values[Q.TARGET] = job.target if to_position else place if speed == 0.0 else math.nan
         if job.kind in SCALED:
             self._commanded = job.target if to_position else None
-            forward = speed if speed != 0.0 else place - pieces.item(0, 1)
+            forward = speed if speed != 0.0 else place - start
             self._heading = math.copysign(1.0, forward) if forward != 0.0 else self._heading
 
     def _show_job(self, job: Job) -> None:

@@ -16,7 +16,7 @@ class AxisPositioning(AxisSubmission):
     """Positioning; the arguments are those of `AxisBase`.
 
     Every move is done when the setpoint has come to the target, and the actual position into its window where the axis
-    has one. A move in motion that can come to its target only by turning back does so, and warns: 0x427E.
+    has one. A move in motion that cannot come to rest before a target ahead turns back to it, and warns: 0x427E.
     """
 
     def move_absolute(self, position: float, **keywords: Unpack[MoveKeywords]) -> AxisCommand:

@@ -6,14 +6,15 @@ from typing import TYPE_CHECKING, Unpack
 
 from motionlayer.command import ErrorId
 from motionlayer.nc._config import Calibration, HomeConfig, HomingMode
+from motionlayer.nc._follower import Follower
 from motionlayer.nc._home_keywords import HomeKeywords, asked_home, told
 from motionlayer.nc._homing import LATCHES, HomeCommand, Homing
 from motionlayer.nc._homing_port import HomingPort
-from motionlayer.nc._limits import bad_place
+from motionlayer.nc._limits import bad_place, too_weak
 from motionlayer.nc._motion import TARGETED, AxisCommand, Job, JobKind, Refusal, member, number, required
 from motionlayer.nc._states import AxisEvent, AxisState
 from motionlayer.nc._submission import AxisSubmission
-from motionlayer.profile import stop_at
+from motionlayer.profile import PlanError, stop_at
 from motionlayer.store import Q, Watch
 
 if TYPE_CHECKING:
@@ -53,8 +54,9 @@ class AxisReferencing(AxisSubmission):
         state = self._next(AxisEvent.HOME, command)
         if state is None:
             return command
-        if kind is Calibration.DEFAULT and home.mode is not HomingMode.DIRECT and not all(self._feed):
-            self._refuse(command, Refusal(ErrorId.FEED_NOT_ENABLED, "a homing needs both directions"))
+        refusal = self._unfit(command) if kind is Calibration.DEFAULT and home.mode is not HomingMode.DIRECT else None
+        if refusal is not None:
+            self._refuse(command, refusal)
             return command
         self._accept(command, told(home, self.config.home) if kind is Calibration.DEFAULT else f"home({kind.name})")
         if kind in (Calibration.FORCE, Calibration.RESET):
@@ -67,6 +69,13 @@ class AxisReferencing(AxisSubmission):
         self._homing = command.homing = Homing(self._homing_port(home), command, cam=bool(keywords.get("cam")))
         self._homing.begin()
         return command
+
+    def _unfit(self, command: AxisCommand) -> Refusal | None:
+        """Tell why nothing can be searched: a direction is not released, or the default dynamics are too weak."""
+        if not all(self._feed):
+            return Refusal(ErrorId.FEED_NOT_ENABLED, "a homing needs both directions")
+        search = Job(JobKind.SEARCH, math.nan, self.config.default, command)
+        return too_weak(search, self.config.maximum.velocity, self.config.unit)
 
     def define_position(
         self,
@@ -121,16 +130,34 @@ class AxisReferencing(AxisSubmission):
         job, low, high = self._job, self.config.limit_min, self.config.limit_max
         if job is None:
             return None
-        places = [stop_at(*self._here, self._running())]
+        places = [stop_at(*self._here, self._chained())]
         places += [one.target for one in self._targeted()]
         for place in places:
             if not low <= place + way <= high:
                 text = f"position {place + way}, allowed: {low} to {high} {self.config.unit}"
                 return Refusal(ErrorId.TARGET_OUTSIDE_LIMITS, text)
         self._passed_already(job)
+        if self._follower is not None and self._hands_over(job, self._follower):
+            return self._chain_misplaced(job, self._follower, way)
         shifted = replace(job, target=job.target + way) if job in self._targeted() else job
         planned = self._checked(shifted, self._here._replace(p=self.set_position + way))
         return planned if isinstance(planned, Refusal) else None
+
+    def _chain_misplaced(self, job: Job, follower: Follower, way: float) -> Refusal | None:
+        """Tell why the coordinate cannot be shifted under two motions that are one: not what either does alone.
+
+        To shift the coordinate is to shift the software limits against it, the other way.
+        """
+        config, trial = self.config, replace(follower, job=replace(follower.job))
+        self.config = config._replace(limit_min=config.limit_min - way, limit_max=config.limit_max - way)
+        try:
+            first = self._first_again(job, trial)
+            second = self._second(trial.job, first.end, self.override)
+            return self._objection(job, first, self.set_position) or self._objection(trial.job, second, first.end.p)
+        except PlanError as error:
+            return Refusal(ErrorId.INTERNAL, str(error))
+        finally:
+            self.config = config
 
     def _targeted(self) -> list[Job]:
         """Return the running and the buffered job, where they have a target position."""
@@ -141,6 +168,8 @@ class AxisReferencing(AxisSubmission):
         """Shift the coordinate in motion, with all that was commanded in it."""
         for job in self._targeted():
             job.target += way
+        if self._job is not None:
+            self._job.start += way
         follower = self._follower
         if follower is not None and follower.buffering.position is not None:
             follower.buffering = follower.buffering._replace(position=follower.buffering.position + way)

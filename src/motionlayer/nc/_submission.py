@@ -10,7 +10,7 @@ from motionlayer.nc._core import AxisCore
 from motionlayer.nc._follower import AT_ONCE, Buffering
 from motionlayer.nc._motion import SCALED, Asked, AxisCommand, Job, JobKind, Refusal, dynamics, least_jerk
 from motionlayer.nc._states import AxisEvent, AxisState
-from motionlayer.nc._ways import turns_back
+from motionlayer.nc._ways import overshoots
 from motionlayer.profile import Limits
 
 DYNAMICS: Final = ("velocity", "acceleration", "deceleration", "jerk")
@@ -85,7 +85,7 @@ class AxisSubmission(AxisCore):
             self._refuse(command, way)
             return
         self._accept(command, text)
-        if turns_back(job, here, way.profile):
+        if overshoots(job, here, way.profile):
             text = f"{command.name}: cannot come to rest before {job.target} {self.config.unit}, and turns back"
             self._tell_of(command, Level.WARNING, Kind.MESSAGE, text, ErrorId.AS_GOOD_AS_POSSIBLE)
         self._drop_follower(by=command)

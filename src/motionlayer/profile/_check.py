@@ -11,6 +11,7 @@ from motionlayer.profile._tolerances import RANGES, TOLERANCES
 POSITION: Final = TOLERANCES.position
 VELOCITY: Final = TOLERANCES.velocity
 ACCELERATION: Final = TOLERANCES.acceleration
+ROUNDING: Final = TOLERANCES.rounding
 CLOCK: Final = TOLERANCES.clock
 LONGEST: Final = RANGES.duration
 FINENESS: Final = RANGES.fineness
@@ -68,8 +69,23 @@ def highest_speed(v: float, a: float, j: float, duration: float) -> float:
 
 
 @kernel
-def misfit(piece: Floats, following: Floats, jerk: float, vel: float, acc: float, path: float, blur: float) -> int:
-    """Judge one piece and its joint to the following one.
+def sizes(out: Floats, count: int) -> tuple[float, float, float]:
+    """Return what the joints of a plan are measured by: its path, its largest |velocity| and |acceleration|.
+
+    The path is the sum over its pieces of the largest |velocity| times the duration.
+    """
+    path, peak, pull = 0.0, abs(out[count - 1, 2]), abs(out[count - 1, 3])
+    for k in range(count - 1):
+        duration = out[k + 1, 0] - out[k, 0]
+        highest = highest_speed(out[k, 2], out[k, 3], out[k, 4], duration)
+        path += highest * duration
+        peak, pull = max(peak, highest), max(pull, abs(out[k, 3]))
+    return path, peak, pull
+
+
+@kernel
+def misfit(piece: Floats, following: Floats, jerk: float, path: float, peak: float, pull: float, blur: float) -> int:
+    """Judge one piece and its joint to the following one, by the `sizes` of the plan.
 
     After a long cruise the clock itself is coarse: a duration is known to a few ulp of the time, not of itself.
     """
@@ -82,10 +98,11 @@ def misfit(piece: Floats, following: Floats, jerk: float, vel: float, acc: float
     end_p = p + duration * (v + duration * (0.5 * a + duration * (j / 6.0)))
     end_v = v + duration * (a + duration * (0.5 * j))
     end_a = a + duration * j
+    far = max(abs(p), abs(end_p))
     if (
-        abs(end_p - following[1]) > POSITION * (abs(p) + abs(end_p) + path) + blur * vel
-        or abs(end_v - following[2]) > VELOCITY * vel + blur * acc
-        or abs(end_a - following[3]) > ACCELERATION * acc + blur * jerk
+        abs(end_p - following[1]) > POSITION * path + ROUNDING * far + blur * peak
+        or abs(end_v - following[2]) > VELOCITY * peak + blur * pull
+        or abs(end_a - following[3]) > ACCELERATION * pull + blur * abs(j)
     ):
         return JUMP
     return FINE
@@ -182,14 +199,13 @@ def check_way(out: Floats, count: int, vel: float, acc: float, dec: float, jerk:
     if not (raised < math.inf and most < math.inf and back < math.inf):  # overflow would allow everything
         return NOT_FINITE
     shortest = min(acc / jerk, dec / jerk, math.sqrt(vel / jerk))
-    path = 0.0
+    path, peak, pull = sizes(out, count)
     for k in range(count - 1):
         duration = out[k + 1, 0] - out[k, 0]
         blur = blur_at(out[k + 1, 0], shortest)
         if over_velocity(out[k], duration, back, vel, raised, blur * most):
             return VELOCITY_LIMIT
-        path += highest_speed(out[k, 2], out[k, 3], out[k, 4], duration) * duration
-        fault = misfit(out[k], out[k + 1], jerk, raised, most, path, blur)
+        fault = misfit(out[k], out[k + 1], jerk, path, peak, pull, blur)
         if fault != FINE:
             return fault
         if over_acceleration(out[k], duration, abs(a), acc, dec, raised, jerk, blur):

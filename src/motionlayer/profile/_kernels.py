@@ -22,6 +22,15 @@ SLIVER: Final = 1e-14
 
 
 @kernel
+def begin(out: Floats, v: float, a: float) -> None:
+    """Open a plan at time 0 and displacement 0."""
+    out[0, 0] = 0.0
+    out[0, 1] = 0.0
+    out[0, 2] = v
+    out[0, 3] = a
+
+
+@kernel
 def push(out: Floats, count: int, jerk: float, duration: float) -> int:
     """Close the open piece with this jerk and duration; one too short to move the clock is left out."""
     t, p, v, a = out[count, 0], out[count, 1], out[count, 2], out[count, 3]
@@ -72,11 +81,15 @@ def to_velocity(out: Floats, target: float, acc: float, dec: float, jerk: float)
     """
     v, a = out[0, 2], out[0, 3]
     reached = v + 0.5 * a * abs(a) / jerk
-    s = 1.0 if target > reached or (target == reached and a >= 0.0) else -1.0  # the tie too has its mirror image
+    s = 1.0 if target > reached or (target == reached and a < 0.0) else -1.0  # the tie too has its mirror image
     count = 0
     if s * a < 0.0:
         count = push(out, 0, s * jerk, abs(a) / jerk)
         out[count, 3] = 0.0
+    if target == reached:  # another ramp would make up for nothing but rounding
+        out[count, 2] = target
+        out[count, 4] = 0.0
+        return count + 1
     w, b, w_end = s * out[count, 2], s * out[count, 3], s * target
     if w < 0.0 < w_end:
         # (1): the acceleration at v = 0 is bounded by both limits, by the start and by the target ...

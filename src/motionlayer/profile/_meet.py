@@ -8,19 +8,12 @@ import math
 from typing import Final
 
 from motionlayer._kernel import kernel
-from motionlayer.profile._kernels import Floats, push, to_velocity
+from motionlayer.profile._clock import is_coarse, ramp_on_clock
+from motionlayer.profile._kernels import Floats, begin, extent, push, to_velocity
 from motionlayer.profile._stop import stop_displacement
-from motionlayer.profile._tolerances import TOLERANCES
 
 OUT_OF_REACH: Final = -9
 """Returned instead of a number of pieces: the moving target runs away."""
-
-CLOCK: Final = TOLERANCES.clock
-STEP: Final = 2.3e-16
-"""More than one step of a clock, relative."""
-
-COARSE: Final = 1e-11
-"""Blur of the clock, relative to a phase, from which a ramp after a cruise is planned on its steps."""
 
 MAX_STEPS: Final = 120
 """Most steps of the bracketing. Bisection alone would need 64 for a float64; it usually takes 6 to 15."""
@@ -29,21 +22,16 @@ ROUNDING: Final = 1e-15
 """Miss of the goal, relative to it or to the way until rest, that the fastest way may have. Making up for it would take
 pieces whose times are as short as the square root of rounding."""
 
+SHORT: Final = 1e-11
+"""What a plan may be off the goal before it makes up for it, as a share of its extent: a tenth of what a joint may
+miss."""
+
 GOLDEN: Final = 0.6180339887498949
 VALLEY: Final = 1e-8
 """Width, relative, at which the search of a valley ends: a float64 shows no smaller one."""
 
 HALVINGS: Final = 1100
 """Most halvings of a bracket: a float64 between 0 and its largest value needs 1075."""
-
-
-@kernel
-def begin(out: Floats, v: float, a: float) -> None:
-    """Open a plan at time 0 and displacement 0."""
-    out[0, 0] = 0.0
-    out[0, 1] = 0.0
-    out[0, 2] = v
-    out[0, 3] = a
 
 
 @kernel
@@ -75,7 +63,8 @@ def leave_at(
     """Solve (4) for the time inside piece k by Chandrupatla's method.
 
     Between 0 and `duration` the left side passes `goal`. Inverse quadratic steps where they are safe, bisection
-    elsewhere (Chandrupatla, Advances in Engineering Software 28, 1997).
+    elsewhere (Chandrupatla, Advances in Engineering Software 28, 1997). Of two neighbouring times the better one is the
+    answer; where the plan goes on at u from its end, the one that ends short of the goal (see `completed`).
     """
     x1, x2, x3 = duration, 0.0, 0.0
     f1 = left_after(out, scratch, k, duration, w, u, acc, dec, jerk) - goal
@@ -105,6 +94,8 @@ def leave_at(
             part = (f1 / (f2 - f1)) * (f3 / (f2 - f3)) + ((x3 - x1) / (x2 - x1)) * (f1 / (f3 - f1)) * (f2 / (f3 - f2))
             least = min(2.2e-16 * abs(x1) / width, 0.5)
             part = min(max(part, least), 1.0 - least)
+    if w == 0.0 and u != 0.0 and f1 != 0.0:
+        return float(x1 if f1 * u < 0.0 else x2)
     return float(x1 if abs(f1) < abs(f2) else x2)
 
 
@@ -136,46 +127,49 @@ def valley(
 
 
 @kernel
-def is_coarse(time: float, v: float, u: float, acc: float, dec: float, jerk: float) -> bool:
-    """Tell whether the clock resolves too little of a ramp from cruising at v to u, and the ramp is one alone."""
-    if v < 0.0 < u or u < 0.0 < v:
-        return False
-    limit = dec if abs(u) < abs(v) else acc
-    return bool(CLOCK * time > COARSE * min(math.sqrt(abs(v - u) / jerk), limit / jerk))
+def completed(out: Floats, count: int, goal: float, u: float) -> int:
+    """Let a plan ride on at u for what it is short of the goal.
+
+    Near a velocity u that is hardly another than its own, the axis is for a moment only on its way to u. The rounding
+    of a velocity is a large share of that moment then, and no time of leaving makes up for it.
+    """
+    short = goal - out[count - 1, 1]
+    if not short * u > 0.0 or abs(short) <= SHORT * abs(goal):
+        return count
+    low, high = extent(out, count)  # who comes back to where it began has gone farther than to the goal
+    if abs(short) <= SHORT * (high - low):
+        return count
+    count = push(out, count - 1, 0.0, short / u)
+    out[count, 4] = 0.0
+    return count + 1
 
 
 @kernel
-def ramp_on_clock(out: Floats, scratch: Floats, k: int, u: float, acc: float, dec: float, jerk: float) -> int:
-    """Plan from the cruise in `out[k]` to u in whole steps of a clock that has become coarse beside its phases.
+def direct_way(out: Floats, goal: float, way: float, w: float, u: float, acc: float, dec: float, jerk: float) -> int:
+    """Take the fastest way from the state in `out[0]` to u if it ends at the goal; 0 where it does not.
 
-    Every phase is stretched to the next steps, and acceleration and jerk lowered as much: it stays exact, and under
-    its limits, at any time. It costs some 5e-16 of the time.
+    Args:
+        out: gets the pieces.
+        goal: where the point is at time 0.
+        way: what the fastest way gains on it.
+        w: velocity of the point.
+        u: velocity at the end.
+        acc: acceleration limit.
+        dec: deceleration limit.
+        jerk: jerk limit.
     """
-    v, t = out[k, 2], out[k, 0]
-    begin(scratch, v, 0.0)
-    last = to_velocity(scratch, u, acc, dec, jerk) - 1
-    if last < 2:  # nothing to do; or a phase underflows: the end is missed, and the check says so
-        out[k, 4] = 0.0
-        return 1
-    for i in range(last):
-        t += (scratch[i + 1, 0] - scratch[i, 0]) + STEP * t
-        out[k + i + 1, 0] = t
-    rise = out[k + 1, 0] - out[k, 0]
-    fall = out[k + last, 0] - out[k + last - 1, 0]
-    peak = (u - v) / (out[k + last, 0] - out[k, 0] - 0.5 * (rise + fall))
-    out[k, 4] = min(max(peak / rise, -jerk), jerk)  # rounding
-    for i in range(1, last):  # a hold, if there is one, and the fall
-        duration = out[k + i, 0] - out[k + i - 1, 0]
-        a, j = out[k + i - 1, 3], out[k + i - 1, 4]
-        out[k + i, 1] = out[k + i - 1, 1] + duration * (out[k + i - 1, 2] + duration * (0.5 * a + duration * (j / 6.0)))
-        out[k + i, 2] = out[k + i - 1, 2] + duration * (a + 0.5 * duration * j)
-        out[k + i, 3] = peak
-        out[k + i, 4] = 0.0
-    out[k + last - 1, 4] = min(max(-peak / fall, -jerk), jerk)
-    out[k + last, 2] = u
-    out[k + last, 3] = 0.0
-    out[k + last, 4] = 0.0
-    return last + 1
+    v, a = out[0, 2], out[0, 3]
+    size = max(abs(goal), abs(stop_displacement(v, a, dec, jerk)))  # who turns may come back to where it began
+    if not (goal == way or abs(goal - way) < ROUNDING * size):  # a NaN is at no goal
+        return 0
+    count = to_velocity(out, u, acc, dec, jerk)
+    low, high = extent(out, count)
+    if u == 0.0 or abs(goal - way) <= SHORT * (high - low):
+        return count
+    if w == 0.0 and (goal - way) * u > 0.0:
+        return completed(out, count, goal, u)
+    begin(out, v, a)
+    return 0
 
 
 @kernel
@@ -209,11 +203,10 @@ def by_way_of(
     cruised = k == last
     k = push(out, k, out[k, 4], time)
     if cruised and is_coarse(out[k, 0], cruise, u, acc, dec, jerk):
-        count = k + ramp_on_clock(out, scratch, k, u, acc, dec, jerk)
-    else:
-        out_tail = out[k:]
-        count = k + to_velocity(out_tail, u, acc, dec, jerk)
-    return count
+        return k + ramp_on_clock(out, scratch, k, u, acc, dec, jerk)
+    out_tail = out[k:]
+    count = k + to_velocity(out_tail, u, acc, dec, jerk)
+    return completed(out, count, goal, u) if w == 0.0 and u != 0.0 else count
 
 
 @kernel
@@ -228,9 +221,9 @@ def to_point(
     """
     begin(out, v, a)
     direct = gain(scratch, v, a, w, u, acc, dec, jerk)
-    size = max(abs(goal), abs(stop_displacement(v, a, dec, jerk)))  # who turns may come back to where it began
-    if goal == direct or abs(goal - direct) < ROUNDING * size:
-        return to_velocity(out, u, acc, dec, jerk)
+    count = direct_way(out, goal, direct, w, u, acc, dec, jerk)
+    if count > 0:
+        return count
     s = 1.0 if goal > direct else -1.0
     fast, slow = s * vel, u
     count = by_way_of(out, scratch, s, fast, goal, w, u, acc, dec, jerk)

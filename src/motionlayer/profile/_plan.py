@@ -16,8 +16,8 @@ from motionlayer.profile._check import (
     is_limit,
     strays,
 )
-from motionlayer.profile._kernels import MAX_PIECES, Floats, extent, to_velocity, without_sliver
-from motionlayer.profile._meet import begin, to_point
+from motionlayer.profile._kernels import MAX_PIECES, Floats, begin, extent, to_velocity, without_sliver
+from motionlayer.profile._meet import to_point
 from motionlayer.profile._stop import stop_displacement, stop_position
 
 

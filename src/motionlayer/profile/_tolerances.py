@@ -9,14 +9,16 @@ class Tolerances(NamedTuple):
     position: float
     velocity: float
     acceleration: float
+    rounding: float
     time: float
     clock: float
 
 
 TOLERANCES: Final = Tolerances(
-    position=1e-10,  # of |start| + |end| + the path travelled: jumps between pieces, miss of the target
-    velocity=1e-10,  # of the largest velocity of the profile and the velocity limit
-    acceleration=1e-10,  # of the largest acceleration of the profile and the acceleration limit
+    position=1e-10,  # of the path of the profile: jumps between pieces
+    velocity=1e-10,  # of the largest velocity of the profile
+    acceleration=1e-10,  # of the largest acceleration of the profile
+    rounding=1.4e-14,  # of the position: on top of that, far from 0
     time=1e-12,  # of the duration: the same move in µm, mm, m or degrees
     clock=5e-16,  # of the time since the profile began: blur of every instant; matters after long cruises only
 )

@@ -13,19 +13,23 @@ from motionlayer.runtime._clock import SYSTEM, Clock, SystemClock
 from motionlayer.runtime._conditions import Conditions, collect_young
 from motionlayer.runtime._cycle import Stage, Step
 from motionlayer.runtime._cyclic import CyclicProgram, takes_memory
+from motionlayer.runtime._failure import describe, said
+from motionlayer.runtime._guest import Guest
+from motionlayer.runtime._history import GRAIN, History
 from motionlayer.runtime._lateness import LATE, Lateness, late_input
-from motionlayer.runtime._loop import CycleFault
-from motionlayer.runtime._mailbox import Mailbox, MailboxFull, Receipt
+from motionlayer.runtime._mailbox import Mailbox, MailboxFull
 from motionlayer.runtime._meter import Meter
 from motionlayer.runtime._pace import BRAKE, CATCH_UP, FASTEST, SLOWEST, Pace
-from motionlayer.runtime._program import Cancelled, Program
+from motionlayer.runtime._program import Cancelled, Issuer, Program
 from motionlayer.runtime._published import Published
+from motionlayer.runtime._receipt import Receipt
 from motionlayer.runtime._run import Run
-from motionlayer.runtime._scheduler import describe
 from motionlayer.runtime._snapshot import Snapshot
+from motionlayer.runtime._source import Source
 from motionlayer.runtime._statistics import Histogram, Spread, Statistics
 from motionlayer.runtime._stepping import SteppedRun
 from motionlayer.runtime._tasks import BUDGET, MAIN, Task, TaskConfig, Tasks, heaviest
+from motionlayer.runtime._ticking import CycleFault
 from motionlayer.runtime._watchdog import PATIENCE, ProgramStuck
 from motionlayer.runtime.copying import NotCopyable
 
@@ -34,6 +38,7 @@ __all__ = [
     "BUDGET",
     "CATCH_UP",
     "FASTEST",
+    "GRAIN",
     "LATE",
     "MAIN",
     "PATIENCE",
@@ -47,7 +52,10 @@ __all__ = [
     "Conditions",
     "CycleFault",
     "CyclicProgram",
+    "Guest",
     "Histogram",
+    "History",
+    "Issuer",
     "Lateness",
     "Mailbox",
     "MailboxFull",
@@ -60,6 +68,7 @@ __all__ = [
     "Receipt",
     "Run",
     "Snapshot",
+    "Source",
     "Spread",
     "Stage",
     "Statistics",
@@ -73,5 +82,6 @@ __all__ = [
     "describe",
     "heaviest",
     "late_input",
+    "said",
     "takes_memory",
 ]

@@ -12,8 +12,9 @@ from collections.abc import Iterator, Mapping
 from typing import Final
 
 from motionlayer.command import Command, Ledger
-from motionlayer.runtime._mailbox import Mailbox, Receipt
+from motionlayer.runtime._mailbox import Mailbox
 from motionlayer.runtime._published import Published
+from motionlayer.runtime._receipt import Receipt
 
 MAX_SIZE: Final = 2**30
 """Largest size of an area in bytes."""

@@ -2,10 +2,29 @@
 
 import math
 import threading
-from typing import Final
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from motionlayer.runtime._source import Sleeper
 
 LOOK: Final = 0.01
 """Seconds after which a run that is held up looks again at what has come from outside."""
+
+
+class Latch:
+    """Sleeps on a latch; a run that fetches nothing from outside needs no more."""
+
+    def __init__(self) -> None:
+        self._stirred = threading.Event()
+
+    def sleep(self, seconds: float) -> None:
+        """Return after a time, or when somebody stirs."""
+        self._stirred.wait(seconds)
+        self._stirred.clear()
+
+    def stir(self) -> None:
+        """Let who sleeps look at once."""
+        self._stirred.set()
 
 
 class Gate:
@@ -13,12 +32,15 @@ class Gate:
 
     An open gate costs the cycle one comparison. Only one that counts takes a lock, which nobody keeps for long: whoever
     counts ticks is not in a hurry.
+
+    Attributes:
+        sleeper: how the cycle waits at the gate.
     """
 
     def __init__(self) -> None:
         self._left = math.inf
         self._lock = threading.Lock()
-        self._stirred = threading.Event()
+        self.sleeper: Sleeper = Latch()
 
     @property
     def closed(self) -> bool:
@@ -47,10 +69,9 @@ class Gate:
 
     def stir(self) -> None:
         """Let who waits look at once; for any thread."""
-        self._stirred.set()
+        self.sleeper.stir()
 
     def wait(self) -> bool:
         """Wait for a short time, until somebody stirs or until it opens; tell whether it is open."""
-        self._stirred.wait(LOOK)
-        self._stirred.clear()
+        self.sleeper.sleep(LOOK)
         return not self.closed

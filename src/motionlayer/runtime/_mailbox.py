@@ -1,9 +1,10 @@
 """The mailbox: the only way from other threads into a run.
 
 Other threads *post*; the cycle *applies* in step INPUTS what has been posted until then, in order of arrival, and
-*acknowledges* it at the end of step OUTPUTS, when what came of it can be read outside. Each input is handed to the
-listeners with its tick before it is applied: a recorder writes it down, and `feed` does the same in a replay. What the
-owner of a run does to it between two ticks is no post, but an input all the same: it is noted.
+*acknowledges* it at the end of step OUTPUTS, when what came of it can be read outside. A `Source` has no thread that
+posts: the cycle fetches from it first. Each input is handed to the listeners with its tick before it is applied: a
+recorder writes it down, and `feed` does the same in a replay. What the owner of a run does to it between two ticks is
+no post, but an input all the same: it is noted.
 
 No locks between the two sides: a poster that the system suspends must not hold up the cycle. Appending to a deque and
 popping from it are single steps of the interpreter, so an input is there as a whole or not at all. A mailbox in which
@@ -17,6 +18,8 @@ from typing import Final, NamedTuple
 
 from motionlayer.command import Ledger
 from motionlayer.event import Device, Event, EventLog, Input, Kind, Level
+from motionlayer.runtime._receipt import Receipt
+from motionlayer.runtime._source import Source
 
 CAPACITY: Final = 100_000
 """Inputs that may wait for the next tick."""
@@ -27,60 +30,6 @@ Handler = Callable[[bytes], bytes | None]
 
 class MailboxFull(RuntimeError):  # noqa: N818 - the state, as a user would say it
     """So many inputs wait for the next tick that no more are taken; what was posted now is lost."""
-
-
-class Receipt:
-    """What has become of one posted input; any thread may ask.
-
-    Attributes:
-        channel: where it was posted.
-        settled: it has been applied and published, or its end is known to be an error.
-        result: what the handler of the channel gave back; empty before, and where it gave nothing.
-    """
-
-    __slots__ = ("_error", "_latch", "_mailbox", "_tick", "channel", "result", "settled")
-
-    def __init__(self, channel: str, mailbox: "Mailbox") -> None:
-        self.channel = channel
-        self._mailbox = mailbox
-        self.settled = False
-        self.result = b""
-        self._tick = -1
-        self._error: Exception | None = None
-        self._latch = threading.Lock()  # locked until settled; a third of the cost of threading.Event
-        self._latch.acquire()
-
-    def wait(self, timeout: float = 10.0) -> int:
-        """Wait, in another thread than that of the cycle, until the input has been applied and its outcome published.
-
-        Args:
-            timeout: how long at most, in seconds of wall time.
-
-        Returns:
-            The tick that applied it.
-
-        Raises:
-            TimeoutError: it has not been applied by then; it may still be.
-            RuntimeError: the run ended before, or the thread of the cycle would wait for itself.
-            Exception: whatever the handler of the channel raised.
-        """
-        if not self.settled and self._mailbox.cycle_thread == threading.get_ident():
-            raise RuntimeError(
-                f"channel {self.channel}: wait() in a tick would hold up the run that it waits for; "
-                "in a program `await run.until(lambda: receipt.settled)`"
-            )
-        if not self._latch.acquire(timeout=timeout):
-            raise TimeoutError(f"channel {self.channel}: not applied within {timeout:g} s; is the run being stepped?")
-        self._latch.release()
-        if self._error is not None:
-            raise self._error
-        return self._tick
-
-    def settle(self, tick: int, error: Exception | None = None) -> None:
-        """Tell those who wait; called once, by the mailbox."""
-        self._tick, self._error = tick, error
-        self.settled = True
-        self._latch.release()
 
 
 class _Posted(NamedTuple):
@@ -116,8 +65,14 @@ class Mailbox:
         self._fed: deque[Input] = deque()
         self._next_fed = -1
         self._applied: list[tuple[Receipt, Exception | None]] = []
+        self._source: Source | None = None
         self._closed = False
         self._count_lock = threading.Lock()
+
+    @property
+    def empty(self) -> bool:
+        """Nothing that was posted waits for the next tick."""
+        return not self._waiting
 
     @property
     def channels(self) -> list[str]:
@@ -138,6 +93,10 @@ class Mailbox:
         if channel in self._handlers:
             raise ValueError(f"channel {channel!r} is registered already; each has one handler")
         self._handlers[channel] = handler
+
+    def attach(self, source: Source) -> None:
+        """Fetch inputs from a source in every tick from now on, until `close`."""
+        self._source = source
 
     def listen(self, listener: Callable[[Input], None]) -> None:
         """Call `listener` with every input from now on, in the cycle thread, before it is applied."""
@@ -226,6 +185,8 @@ class Mailbox:
 
     def apply(self, tick: int) -> None:
         """Apply what has come for this tick; a stage of step INPUTS, before all others."""
+        if self._source is not None:
+            self._source.fetch()
         if not self._waiting and tick != self._next_fed:
             return
         fed = self._fed
@@ -243,6 +204,8 @@ class Mailbox:
             applied, self._applied = self._applied, []
             for receipt, error in applied:
                 receipt.settle(tick, error)
+            if self._source is not None:
+                self._source.tell()
 
     def close(self) -> None:
         """Refuse what waits, and everything from now on: the run has ended."""
@@ -251,6 +214,10 @@ class Mailbox:
         for receipt, error in applied:
             receipt.settle(-1, error or _run_ended(receipt.channel))
         self._refuse_waiting()
+        source, self._source = self._source, None
+        if source is not None:  # what it has, and what it has had of this tick, is answered, too
+            source.fetch()
+            source.tell()
 
     def _handle(self, one: Input, receipt: Receipt | None = None) -> Exception | None:
         for listener in self._listeners:

@@ -58,6 +58,7 @@ class Pace:
         overruns: ticks that began at least one tick late.
         slips: how often time slipped.
         slipped_ns: by how much in total, in nanoseconds of the clock.
+        brakes: incidents that passed `BRAKE`.
 
     Raises:
         ValueError: the speed is out of range.
@@ -77,7 +78,7 @@ class Pace:
         if not SLOWEST <= speed <= FASTEST:
             raise ValueError(f"speed = {speed}: must be {SLOWEST:g} to {FASTEST:g} (times real time)")
         self.lateness = Histogram()
-        self.overruns = self.slips = self.slipped_ns = 0
+        self.overruns = self.slips = self.slipped_ns = self.brakes = 0
         self._clock = clock
         # As a fraction of integers the instants stay exact, however long the run.
         self._period_ns = cycle_ns / Fraction(str(float(speed)))
@@ -144,6 +145,7 @@ class Pace:
         if grade <= self._grade:
             return
         self._grade = grade
+        self.brakes += late > BRAKE
         now = self._clock.now_ns()
         if late > BRAKE or now >= self._quiet_until:
             self._quiet_until = now + QUIET_NS

@@ -5,6 +5,7 @@ A program is a coroutine, or a function that a task calls (`_cyclic`). A corouti
 Who is due is decided before any program of a tick runs; each runs at most once per tick, in order of start.
 """
 
+import abc
 import sys
 from collections.abc import Coroutine
 from typing import Any, Final, NoReturn
@@ -26,8 +27,8 @@ class Deadline:
         self.seconds = seconds
 
 
-class Program(Command[Any]):
-    """Something of the user's that runs in the programs step; a command too, so that it can be awaited.
+class Issuer(Command[Any]):
+    """Code of the user's: while it runs, what is commanded is its own, and messages name it.
 
     Attributes:
         failure: the exception that left it, if any.
@@ -40,10 +41,17 @@ class Program(Command[Any]):
     def __init__(self, name: str, *, number: int, owner: Command[Any] | None) -> None:
         super().__init__(name, number=number, owner=owner)
         self.failure: BaseException | None = None
+        self.warned: list[str] = []
+
+
+class Program(Issuer, abc.ABC):
+    """Something of the user's that runs in the programs step; a command too, so that it can be awaited."""
+
+    def __init__(self, name: str, *, number: int, owner: Command[Any] | None) -> None:
+        super().__init__(name, number=number, owner=owner)
         self.deadlines: list[Deadline] = []
         self.waits_for: Command[Any] | None = None
         self.cancelling = False
-        self.warned: list[str] = []
         self._value: Any = None
 
     def cancel(self) -> None:
@@ -62,8 +70,9 @@ class Program(Command[Any]):
         self.waits_for = None
         return self._go_on(throw)
 
+    @abc.abstractmethod
     def _go_on(self, throw: BaseException | None) -> bool:
-        raise NotImplementedError
+        """Let the user's code go on; see `resume`."""
 
     @property
     def value(self) -> Any:  # noqa: ANN401 - whatever the program returns

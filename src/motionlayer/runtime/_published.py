@@ -64,13 +64,17 @@ class Published:
 
     def read(self, where: slice) -> tuple[int, bytes]:
         """Return the last finished tick, -1 before the first, and a slice of what was published."""
-        header, halves = self._header, self._halves
+        return self.whole(where)[1:]
+
+    def whole(self, where: slice = slice(None)) -> tuple[int, int, bytes]:
+        """Return number, tick and bytes of the last publication, all of them where no slice is given."""
+        header = self._header
         while True:
             count = header[_DONE]
             half = count & 1
-            tick, data = header[_TICK + half], bytes(halves[half][where])
+            tick, data = header[_TICK + half], bytes(self._halves[half][where])
             if header[_BEGUN] <= count + 1:
-                return tick, data
+                return count, tick, data
 
     def release(self) -> None:
         """Give the block back; afterwards nothing can be read or written."""

@@ -6,20 +6,25 @@ from collections.abc import Callable, Coroutine, Iterator
 from typing import Any
 
 from motionlayer.runtime._cyclic import CyclicProgram
+from motionlayer.runtime._guest import Guest
 from motionlayer.runtime._loop import Loop
-from motionlayer.runtime._program import CoroutineProgram, Deadline, Program
+from motionlayer.runtime._program import CoroutineProgram, Deadline, Issuer, Program
 from motionlayer.runtime._tasks import MAIN
 from motionlayer.runtime._waits import Sleep, Until
 from motionlayer.runtime._watchdog import Watchdog
 
 
 class Run(Loop):
-    """Cycles in order, and the programs in them; the arguments are those of `Loop`."""
+    """Cycles in order, and the programs in them; the arguments are those of `Ticking`."""
 
     @property
-    def failures(self) -> list[Program]:
-        """Programs that failed and that nobody awaited."""
+    def failures(self) -> list[Issuer]:
+        """Programs that failed and that nobody awaited, and guests whose call has failed."""
         return self._scheduler.failures
+
+    def guest(self, name: str) -> Guest:
+        """Return what names code of the user's that is called outside of the programs step."""
+        return Guest(name, self._ledger, self._scheduler)
 
     def start(self, coroutine: Coroutine[Any, Any, Any], name: str | None = None) -> Program:
         """Start a program; it first runs in the next programs step.

@@ -1,14 +1,13 @@
 """The scheduler: which programs are due, and what becomes of those that fail."""
 
-import traceback
 from collections.abc import Callable, Coroutine, Sequence
-from pathlib import Path
 from typing import Any, Final
 
-from motionlayer.command import Command, CommandAborted, CommandError, ErrorId, Ledger, MotionError
+from motionlayer.command import Command, CommandError, ErrorId, Ledger, MotionError
 from motionlayer.event import Device, Event, EventLog, Kind, Level, Subdevice
 from motionlayer.runtime._cyclic import CyclicProgram, takes_memory
-from motionlayer.runtime._program import Cancelled, CoroutineProgram, Program
+from motionlayer.runtime._failure import describe
+from motionlayer.runtime._program import Cancelled, CoroutineProgram, Issuer, Program
 from motionlayer.runtime._tasks import Tasks
 from motionlayer.runtime._waits import Waits
 
@@ -34,8 +33,8 @@ class Scheduler:
     ) -> None:
         self.programs: list[Program] = []
         """Programs that have not ended, in order of start."""
-        self.failures: list[Program] = []
-        """Programs that failed and that nobody awaited."""
+        self.failures: list[Issuer] = []
+        """Programs that failed and that nobody awaited, and guests that failed."""
         self.waits = Waits(ledger)
         """Sleeps and predicates that somebody waits for."""
         self._ledger = ledger
@@ -150,10 +149,10 @@ class Scheduler:
             raise
         finally:
             self._ledger.issuer = None
-            self._tell_forgotten(program)
+            self.tell_forgotten(program)
         self._finish(program, failure)
 
-    def _tell_forgotten(self, program: Program) -> None:
+    def tell_forgotten(self, program: Issuer) -> None:
         """Warn of waits that the program made in this turn and did not await, once for each line."""
         for name, place in self.waits.forgotten():
             if place not in program.warned:
@@ -198,21 +197,10 @@ class Scheduler:
             self.failures.append(program)
             self._on_failure(program)
 
-    def _tell(self, program: Program, level: Level, kind: Kind, text: str, code: int = 0) -> None:
+    def _tell(self, program: Issuer, level: Level, kind: Kind, text: str, code: int = 0) -> None:
         source = f"program {program.name}"
         main, part = Device.Device_Main, Subdevice.General
         self._events.add(Event(self._ledger.tick, level, kind, source, text, code, program.number, main, part))
 
 
 _NEVER: Final = 2**62
-PACKAGE: Final = str(Path(__file__).parent.parent)
-
-
-def describe(failure: BaseException) -> str:
-    """Return an exception in one line, with the way through the program to the place where it left."""
-    frames = traceback.extract_tb(failure.__traceback__)
-    own = [frame for frame in frames if not frame.filename.startswith(PACKAGE)]
-    # The name alone: the text reaches the hash of the run, which must not depend on where a file lies.
-    way = " > ".join(f"{Path(frame.filename).name}:{frame.lineno} in {frame.name}" for frame in own[-3:])
-    kind = "" if isinstance(failure, (CommandError, CommandAborted)) else f"{type(failure).__name__}: "
-    return f"{kind}{failure}" + (f" ({way})" if way else "")

@@ -24,6 +24,7 @@ class Statistics(NamedTuple):
         overruns: ticks that began at least one tick late.
         slips: how often time slipped.
         slipped: by how much in total, in seconds of the clock.
+        brakes: how often all axes braked because ticks were late.
     """
 
     compute: "Histogram"
@@ -32,6 +33,7 @@ class Statistics(NamedTuple):
     overruns: int
     slips: int
     slipped: float
+    brakes: int
 
 
 class Spread(NamedTuple):

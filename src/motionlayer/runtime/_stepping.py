@@ -91,6 +91,32 @@ class SteppedRun(Run):
         finally:
             self._breakpoints.arm(on=False)
 
+    def advance_until(self, predicate: Callable[[], bool], time: float) -> bool:
+        """Run until a condition holds, or for a time at most; programs or not, they stay as they are.
+
+        Args:
+            predicate: asked now, and at the end of every tick.
+            time: seconds of the run, from now.
+
+        Returns:
+            Whether the condition holds.
+
+        Raises:
+            ProgramStuck: a program did not yield.
+            CycleFault: a step of the runtime itself failed.
+            RuntimeError: called in a program.
+            TypeError: the predicate cannot be called.
+            ValueError: the time is negative, NaN or infinite.
+        """
+        self._require_no_program("run ticks")
+        if not callable(predicate):
+            raise TypeError(f"advance_until({predicate!r}): give a function, as in advance_until(lambda: …, time=5.0)")
+        self._set_end("advance_until", time)
+        with Watchdog(self._ledger, self._patience) as watchdog:
+            while not predicate() and self.tick < self._end:  # once more where it returned as all programs had ended
+                self._watched(watchdog, None, lambda: True if predicate() else None)
+        return predicate()
+
     def snapshot(self) -> Snapshot:
         """Copy all that the next ticks depend on: tables, axes, drives, commands, cyclic programs and their memory.
 

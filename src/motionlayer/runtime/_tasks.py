@@ -72,6 +72,9 @@ class Task:
         self.over_budget = 0
         self._over = False
 
+    def __repr__(self) -> str:
+        return f"<Task {self.name}: every {self.every} ticks, {len(self.programs)} programs>"
+
     def measured(self, ns: int) -> bool:
         """Take in the compute time of a cycle; tell whether it is the first over the budget in a row."""
         self.compute.add(ns)

@@ -7,6 +7,7 @@ import numpy as np
 
 from motionlayer.event import Kind
 from motionlayer.verify._axis import Axis
+from motionlayer.verify._carried import Carried, Place
 from motionlayer.verify._goals import Goals
 from motionlayer.verify._lives import Life
 from motionlayer.verify._report import Finding
@@ -163,19 +164,26 @@ def waiting(axis: Axis, lives: Lives, running: Life, tick: int) -> list[Life]:
 
 
 def _targets(axis: Axis, own: Lives, lives: Lives, goals: Goals) -> list[Finding]:
-    """A positioning leads to the position that was asked for, or to the joint where a blended one takes over."""
+    """A positioning leads to the position that was asked for, or to the joint where a blended one takes over.
+
+    One that the override has held past its joint does not come back to it.
+    """
     found = []
+    held = [str(kind) == "stop" and override_of(axis, plan) == 0.0 for plan, kind in enumerate(axis.curves.kind)]
+    carried = Carried(axis, held)
     for plan, life, asked in plans_of(axis, own, "position", "passing"):
         known = goals.of(life) if asked.to_position else None
         if known is None:
             continue
         tick, target = int(axis.curves.tick[plan]), float(axis.curves.target[plan])
-        for one in waiting(axis, lives, life, tick):
+        others = waiting(axis, lives, life, tick)
+        for one in others:
             joint = request(one.text).number("blending_position")
             known += goals.told(joint, one.accepted) if math.isfinite(joint) else ()
-        off = [(abs(target - place) - allowed, place) for place, allowed in (goals.at(goal, plan) for goal in known)]
+        places = [Place(*goals.at(goal, plan)) for goal in known]
+        off = [(abs(target - place) - allowed, place) for place, allowed in places]
         nearest, place = min(off, default=(math.inf, math.nan))
-        if nearest > 0.0:
+        if nearest > 0.0 and not (others and carried.hands_over(plan, places)):
             text = f"command {life.number} leads to another place than it asked for, {life.text}"
             found.append(axis.finding("command target", tick, text, value=target, limit=place, unit=axis.unit(0)))
     return found

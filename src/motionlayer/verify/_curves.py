@@ -132,3 +132,16 @@ class Curves:
         length[:-1] = np.diff(self.pieces[:, 0])
         length[self.first[1:] - 1] = 0.0
         return length
+
+    def fastest(self) -> Floats:
+        """Return the largest |v| of every piece, shape (N,); of the last one of a plan that at its start."""
+        _, _, v, a, j = self.pieces.T
+        index, length = np.arange(len(v), dtype=np.int64), self.durations()
+        with np.errstate(all="ignore"):
+            turn = np.nan_to_num(np.where(j == 0.0, 0.0, -a / j)).clip(0.0, length)  # where |v| may be larger inside
+        inside, end = (self.evaluate(index, s, np.zeros(len(v))).v for s in (turn, length))
+        return np.asarray(np.maximum(np.abs(v), np.maximum(np.abs(inside), np.abs(end))))
+
+    def paths(self) -> Floats:
+        """Return the path of every plan, shape (P,): the sum over its pieces of the largest |v| times the duration."""
+        return np.asarray(np.add.reduceat(self.fastest() * self.durations(), self.first[:-1]))

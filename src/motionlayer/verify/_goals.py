@@ -17,8 +17,8 @@ from motionlayer.verify._axis import Axis
 from motionlayer.verify._curves import Floats
 from motionlayer.verify._lives import Life
 from motionlayer.verify._orientations import FULL_TURN, ahead, orientations
-from motionlayer.verify._redefinitions import AT_THE_END
 from motionlayer.verify._requests import BRAKES, MOTIONS, Request, request
+from motionlayer.verify._shifts import Shifts
 from motionlayer.verify._stops import stops
 from motionlayer.verify._tolerance import TOLERANCES, Slack
 
@@ -49,36 +49,9 @@ class Goals:
         self._axis, self._lives = axis, lives
         self._slack = Slack.of(axis.curves).p
         self._own = [one for one in lives.values() if one.source == axis.name and one.kind != Kind.REFUSED]
+        self._redefined = Shifts(axis, self._own)
+        self._shift = self._redefined.ways
         self._known: dict[int, tuple[Goal, ...] | None] = {}
-
-    @cached_property
-    def _shift(self) -> Floats:
-        """How far the coordinate has been shifted in motion, by each plan and all before it, u; one 0 in front."""
-        curves, plan = self._axis.curves, np.arange(len(self._axis.curves), dtype=np.int64)
-        before = np.maximum(plan - 1, 0)
-        jump = curves.pieces[curves.first[:-1], 1] - curves.at(before, curves.time(before, curves.tick)).p
-        for one in np.flatnonzero(curves.kind == "shift").tolist():
-            jump[one] = self._shift_told(int(curves.tick[one]), float(jump[one]))
-        return np.concatenate([[0.0], np.cumsum(np.where(curves.kind == "shift", jump, 0.0))])
-
-    def _shift_told(self, tick: int, jump: float) -> float:
-        """Return how far a tick shifted a coordinate in motion; a redefinition at rest before it is in `jump` too."""
-        last = max((one.number for one in self._own if self._redefines_at_rest(one, tick)), default=None)
-        if last is None:
-            return jump
-        later = [request(one.text) for one in self._own if one.accepted == tick and one.number > last]
-        shifts = [one for one in later if one.name == "define_position"]
-        if not shifts or any(one.flag("clear_offset") for one in shifts):
-            return jump
-        return sum(one.number("position") for one in shifts)
-
-    def _redefines_at_rest(self, life: Life, tick: int) -> bool:
-        """Tell whether a command redefined the coordinate in a tick, and certainly at rest."""
-        name = request(life.text).name
-        if name != "define_position":  # one that ends at once redefines nothing, but for a homing
-            return name in AT_THE_END and life.ended == tick and (name == "home" or life.accepted < tick)
-        before = (one for one in self._own if one.number < life.number and one.accepted <= tick <= one.ended)
-        return life.accepted == tick and not any(request(one.text).name in MOTIONS for one in before)
 
     @cached_property
     def _rest(self) -> Floats:
@@ -138,7 +111,7 @@ class Goals:
         if start is None:
             return None
         if asked.name == "move_relative":
-            return (_beside(start, asked.number("distance")),)
+            return tuple(_beside(one, asked.number("distance")) for one in (start, *self._joints(life, asked)))
         if asked.name == "move_additive":
             bases = self._commanded(life, start)
             return None if bases is None else tuple(_beside(base, asked.number("distance")) for base in bases)
@@ -181,6 +154,9 @@ class Goals:
             asked = request(one.text)
             if asked.name not in BRAKES:
                 yield tick, one if asked.to_position else None, True
+        earlier = (one for one in self._own if one.number < life.number)
+        if any(self._redefined.at_rest(one, life.accepted) for one in earlier):
+            yield life.accepted, None, True  # a shift in the same tick leaves no plan of it
 
     def _replaced(self, life: Life) -> Iterator[tuple[int, Life | None, bool]]:
         """Yield the same for commands before it that no plan serves: they were replaced in the tick they began in.
@@ -205,6 +181,17 @@ class Goals:
         done = (one for one in self._own if one.kind == Kind.DONE and one.number < waiting.number)
         return any(waiting.ended - 1 <= one.ended <= waiting.ended for one in done)
 
+    def _joints(self, life: Life, asked: Request) -> tuple[Goal, ...]:
+        """Return where a blended command was to begin; a hold may have carried the axis past that (see `Carried`)."""
+        plan, place = self.first(life), asked.number("blending_position")
+        if plan is None or not asked.blends:
+            return ()
+        if math.isfinite(place):
+            return self.told(place, life.accepted)
+        numbers = self._axis.curves.command[:plan]
+        running = self._lives.get(int(numbers[numbers != life.number][-1])) if (numbers != life.number).any() else None
+        return () if running is None else self.of(running) or ()
+
     def _begins(self, life: Life, start: Goal) -> Iterator[Goal]:
         """Yield where a command began in the coordinate it was accepted in: before or after the shifts of that tick."""
         for _, since, _ in self.told(0.0, life.accepted):
@@ -225,7 +212,8 @@ class Goals:
         if moves and (int(curves.tick[plan]) != life.accepted or self._replaces_unseen(life)):
             return None
         found: list[Goal] = []
-        for here, since, _ in self._begins(life, start):
+        joints = () if moves else self._joints(life, asked)
+        for here, since, _ in (*self._begins(life, start), *joints):
             rest = float(self._rest[plan]) + here - start.place
             places = ahead(rest, asked, modulo) if moves else orientations(here, asked, modulo)
             found += [Goal(place, since, exact=False) for place in places]

@@ -35,7 +35,13 @@ def homing_rules(axis: Axis, lives: Lives) -> list[Finding]:
         return []
     done = [life for life in served(axis, lives).values() if life.kind == Kind.DONE and _searched(life, home)]
     shift = _shift(axis) if done else np.zeros(0)
-    return [found for life in done for found in _reference(axis, life, home, shift)]
+    others = frozenset(one.accepted for one in lives.values() if one.source == axis.name and _redefines(one))
+    return [found for life in done for found in _reference(axis, life, home, shift, others)]
+
+
+def _redefines(life: Life) -> bool:
+    """Tell whether a command gives a place another position at once."""
+    return life.kind != Kind.REFUSED and request(life.text).name == "define_position"
 
 
 def _searched(life: Life, home: Mapping[str, Any]) -> bool:
@@ -54,13 +60,18 @@ def _shift(axis: Axis) -> Floats:
     return np.cumsum(np.where(axis.redefined & (n > 0), actual - expected, 0.0))
 
 
-def _reference(axis: Axis, life: Life, home: Mapping[str, Any], shift: Floats) -> list[Finding]:
-    """The reference is one of the places where the drive can have told it."""
+def _reference(axis: Axis, life: Life, home: Mapping[str, Any], shift: Floats, others: frozenset[int]) -> list[Finding]:
+    """The reference is one of the places where the drive can have told it.
+
+    A trace keeps one redefinition of a tick. Where a command in `others` made another one, that of the homing is gone.
+    """
     curves = axis.curves
     own = np.flatnonzero((curves.kind == "set") & (curves.tick >= life.ended) & (curves.tick <= life.ended + 1))
     if not len(own) or int(curves.tick[own[0]]) > axis.ticks[-1]:
         return []
     plan, tick, reference = int(own[0]), int(curves.tick[own[0]]), request(life.text).number("position")
+    if tick in others:
+        return []
     place = reference - shift[tick]
     drive = axis.signals["actual_position"] - shift
     redefining = np.flatnonzero(curves.redefines[: plan + 1])

@@ -14,6 +14,11 @@ FORMAT: Final = 1
 COARSEST: Final = 0.1
 """Largest share of what a limit allows in one cycle that a resolution may hide."""
 
+NO_AXES: Final = (
+    "the machine is a control side, whose axes are in another machine: judge the trace of that one; "
+    "whether the control side does the same again, `motionlayer replay` tells"
+)
+
 
 def broken_off(trace: "Trace", *, partial: bool) -> list[str]:
     """Return a note if only a part of the trace is judged: why, and up to where."""
@@ -40,8 +45,9 @@ def unresolved_trace(trace: "Trace", *, partial: bool) -> list[str]:
         reasons.append(f"the file is damaged: {trace.damage}")
     if header.get("format") != FORMAT:
         reasons.append(f"format {header.get('format')!r} of the trace; format {FORMAT} is understood")
-    if not header.get("machine", {}).get("axis"):
-        reasons.append("the header describes no axis")
+    machine = header.get("machine", {})
+    if not machine.get("axis"):
+        reasons.append(NO_AXES if machine.get("control") else "the header describes no axis")
     if not float(trace.base_cycle) > 0.0:
         reasons.append(f"the base cycle is {trace.base_cycle} s")
     if not len(trace.ticks):

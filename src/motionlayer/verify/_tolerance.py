@@ -70,8 +70,8 @@ TOLERANCES: Final[Mapping[str, Tolerance]] = MappingProxyType(
         ),
         "continuity": Tolerance(
             1e-10,
-            "travel, peak velocity, peak acceleration of the plan (and 64 eps of |p|, |v| t …)",
-            "steps from piece to piece inside a plan, and its end against its target",
+            "path, peak velocity, peak acceleration of the plan (and 64 eps of |p|, |v| t …)",
+            "steps from piece to piece inside a plan, and its end against its target: what the planner promises",
         ),
         "plan limits": Tolerance(
             1e-9,
@@ -169,13 +169,12 @@ class Slack:
         length = curves.durations()
         size = curves.evaluate(index, length, np.zeros(len(index)))
         start = np.abs(curves.pieces[:, 1])
-        travel = np.abs(curves.pieces[:, 1] - curves.pieces[curves.first[curves.owner], 1])
         t, j = curves.last_piece()[:, 0], curves.most(np.abs(curves.pieces[:, 4]))
         p, v, a = curves.most(start), curves.most(size.size_v), curves.most(size.size_a)
-        far = curves.most(travel + size.size_p - start)
+        fastest, hardest = curves.most(curves.fastest()), curves.most(np.abs(curves.pieces[:, 3]))
         share, rounding = _relative("continuity"), _relative("handover")
         return cls(
-            p=share * far + rounding * (p + t * v),
-            v=share * v + rounding * (t * a + curves.velocity),
-            a=share * a + rounding * (t * j + curves.acceleration),
+            p=share * curves.paths() + rounding * (p + t * v),
+            v=share * fastest + rounding * (t * a + curves.velocity),
+            a=share * hardest + rounding * (t * j + curves.acceleration),
         )

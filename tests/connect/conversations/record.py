@@ -6,7 +6,7 @@ After every frame a tick passes, so that the conversation can be repeated withou
 import asyncio
 import json
 import sys
-import threading
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from pyads import PLCTYPE_DINT, PLCTYPE_LREAL, NotificationAttrib
 from motionlayer.bench.campaign._ads_device import Device, Peer
 from motionlayer.connect.ads import Watcher
 from motionlayer.connect.ads._frame import Splitter, framed
+from tests.connect import clients
 
 FOLDER = Path(__file__).parent
 
@@ -73,7 +74,21 @@ def with_watch(port: int) -> None:
             watcher.watch(name, 0.01)
 
 
-CLIENTS: dict[str, Callable[[int], None]] = {"pyads": with_pyads, "watch": with_watch}
+def with_node(port: int) -> None:
+    clients.node(FOLDER / "node.mjs", str(port))
+
+
+def with_cpp(port: int) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        clients.run([str(clients.compiled(FOLDER / "client.cpp", Path(folder))), str(port)], FOLDER)
+
+
+CLIENTS: dict[str, Callable[[int], None]] = {
+    "pyads": with_pyads,
+    "watch": with_watch,
+    "node": with_node,
+    "cpp": with_cpp,
+}
 
 
 async def record(client: Callable[[int], Any]) -> list[list[str]]:
@@ -82,9 +97,7 @@ async def record(client: Callable[[int], Any]) -> list[list[str]]:
     device = Device()
     server = await asyncio.get_running_loop().create_server(lambda: Recorder(device, said), "127.0.0.1", 0)
     port = server.sockets[0].getsockname()[1]
-    thread = threading.Thread(target=client, args=(port,))
-    thread.start()
-    await asyncio.to_thread(thread.join)
+    await asyncio.to_thread(client, port)
     server.close()
     return said
 

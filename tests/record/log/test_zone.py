@@ -96,8 +96,25 @@ def test_each_day_begins_with_the_offset_that_is_in_force_there(zone: str) -> No
         assert shown in {offset(begin + tick), offset(begin + tick - 24 * HOUR)}
 
 
-def test_a_year_without_messages_changes_nothing() -> None:
-    silent, busy = in_seconds("2025-01-01T12:00:00"), in_seconds("2025-01-01T12:00:00")
-    for day in range(400):
+@given(st.integers(1, 800 * 24), st.sampled_from(["Europe/Berlin", "America/New_York", "Australia/Lord_Howe"]))
+def test_hours_without_messages_change_nothing(hours: int, zone: str) -> None:
+    silent, busy = in_seconds("2025-01-01T12:00:00", zone), in_seconds("2025-01-01T12:00:00", zone)
+    for day in range(hours // 24):
         busy.text(day * 24 * HOUR)
-    assert silent.text(400 * 24 * HOUR) == busy.text(400 * 24 * HOUR)
+    assert silent.text(hours * HOUR) == busy.text(hours * HOUR)
+    assert silent.date == busy.date
+    next_day = (hours + 24) * HOUR
+    assert silent.text(next_day) == busy.text(next_day)
+
+
+def test_decades_are_one_step() -> None:
+    looked_up: list[int] = []
+
+    def offset(second: int) -> int:
+        looked_up.append(second)
+        return HOUR
+
+    time = LocalTime(0, SECOND, offset)
+    time.slip(at("2026-11-23T12:00:00"))
+    assert time.text(0) == "2026-11-23-13:00:00.000"
+    assert len(looked_up) < 7

@@ -11,6 +11,8 @@ The same code runs as a test for some seconds and as a campaign for hours.
 `contract` random clients of the motion layer write commands and data; judged by an oracle that knows nothing but the
            text of its interface, and by `motionlayer.verify`
 `ads`      damaged requests of an ADS client; nothing stops, nothing is left behind, another client is not disturbed
+`siege`    bad clients of a real ADS server process: half-open connections, huge lengths, nobody who reads; it answers
+           another client in time, says nothing, and does not grow
 `mutation` a sample, plan or event of a valid trace is changed, or what was asked for; `motionlayer.verify` must find it
 ========== ==========================================================================================================
 """
@@ -18,6 +20,7 @@ The same code runs as a test for some seconds and as a campaign for hours.
 from typing import Final
 
 from motionlayer.bench.campaign._ads import ADS
+from motionlayer.bench.campaign._ads_siege import SIEGE
 from motionlayer.bench.campaign._blocks import BLOCKS
 from motionlayer.bench.campaign._campaign import Campaign, Failure
 from motionlayer.bench.campaign._contract import CONTRACT
@@ -26,6 +29,6 @@ from motionlayer.bench.campaign._mutation import MUTATION
 from motionlayer.bench.campaign._planning import PLANNING
 from motionlayer.bench.campaign._pursuit import State, StateError, pursue, repeat, resume
 
-CAMPAIGNS: Final = {campaign.name: campaign for campaign in (PLANNING, LIFE, BLOCKS, CONTRACT, MUTATION, ADS)}
+CAMPAIGNS: Final = {campaign.name: campaign for campaign in (PLANNING, LIFE, BLOCKS, CONTRACT, MUTATION, ADS, SIEGE)}
 
 __all__ = ["CAMPAIGNS", "Campaign", "Failure", "State", "StateError", "pursue", "repeat", "resume"]

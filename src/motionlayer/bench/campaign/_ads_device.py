@@ -12,10 +12,12 @@ from motionlayer.connect.ads import Access, Contents, Inside, Limits, Status, ne
 from motionlayer.connect.ads._connection import Connection
 from motionlayer.connect.ads._frame import Packet, Splitter
 from motionlayer.connect.ads._image import SharedImage
+from motionlayer.connect.ads._memory import Shared
 from motionlayer.connect.ads._notify import Notifications
 from motionlayer.connect.ads._ports import services
 from motionlayer.connect.ads._router import Router
 from motionlayer.connect.ads._service import Kind, Later, Outcome, Write
+from motionlayer.connect.ads._watches import Lookout, Watches
 from motionlayer.connect.ads._wire import pack_request, unpack_outcomes
 from motionlayer.iec import (
     BIT,
@@ -49,9 +51,11 @@ from motionlayer.iec import (
     Struct,
     SymbolTable,
 )
-from motionlayer.runtime import Published
 
 CYCLE_NS: Final = 1_000_000
+SLOW_NS: Final = 10_000_000
+"""Cycle that the history is sized for: a small one, since there are many devices."""
+
 BEGIN: Final = 133_000_000_000_000_000
 """FILETIME of tick 0."""
 
@@ -169,19 +173,23 @@ class Device:
         self.symbols = SymbolTable()
         declare(self.symbols)
         self.inside = Inside(lambda: placed(self.symbols))
-        published = Published(memoryview(bytearray(Published.size_of(self.inside.size))))
-        self.inside.begin(published, lambda tick: Status(BEGIN + tick * CYCLE_NS // 100, RUN, 0, RUN))
-        self.image = SharedImage(published)
+        size = self.inside.size
+        shared = Shared(memoryview(bytearray(Shared.size_of(size, SLOW_NS))), size, SLOW_NS)
+        self.inside.begin(shared, lambda tick: Status(BEGIN + tick * CYCLE_NS // 100, RUN, 0, RUN))
+        self.image = SharedImage(shared.published)
         self.outbox = Outbox(self.inside)
-        self.notifications = Notifications(CYCLE_NS, limits.all_notifications)
+        watches = Watches(shared.history, self.image.size)
+        self.notifications = Notifications(CYCLE_NS, limits.all_notifications, watches)
         self.told: list[str] = []
         contents = Contents(tree_of(self.inside.places), 0)
+        self.lookout = Lookout(self.image, shared.history, self.notifications, self._tell)
         self.router = Router(
             net_id("127.0.0.1.1.1"),
             services(contents, self.image),
+            self.image,
             self.outbox,
             self.notifications,
-            lambda who, why: self.told.append(f"{who}: {why}"),
+            self._tell,
             access,
             limits,
         )
@@ -192,6 +200,9 @@ class Device:
         """Return a new stream."""
         return Peer(self.router, host)
 
+    def _tell(self, who: str, why: str) -> None:
+        self.told.append(f"{who}: {why}")
+
     def tick(self, ticks: int = 1) -> None:
         """Let ticks pass."""
         for _ in range(ticks):
@@ -199,6 +210,5 @@ class Device:
             self.inside.publish(self.next)
             for outcomes, later in settled:
                 later.settle(unpack_outcomes(outcomes))
-            if self.notifications.due(self.next):
-                self.notifications.look(*self.image.snapshot())
+            self.lookout.look()
             self.next += 1

@@ -200,7 +200,7 @@ def _number(rng: np.random.Generator) -> tuple[str, float]:
     if odd < 0.08:
         return symbol, float(rng.choice(NO_NUMBERS))
     if odd < 0.16:
-        return symbol, float(rng.choice((0.0, -typical, 1e9, 1e-4 * typical, -1e300)))
+        return symbol, float(rng.choice((0.0, -typical, 1e9, 1e-9, 5e-324, -1e300)))
     return symbol, float(rng.uniform(-REACH, REACH) if place == 0 else rng.uniform(0.1, 1.0) * typical)
 
 

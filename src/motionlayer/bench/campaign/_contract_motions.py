@@ -1,6 +1,7 @@
 """The oracle's rules of motion: the axis is asked for what the command means, and moves for nothing else (5.2, 5.5)."""
 
 import itertools
+import math
 from collections.abc import Iterator
 from typing import Final
 
@@ -55,6 +56,8 @@ def as_written(watch: Watch, segment: Segment) -> Iterator[Fault]:
             continue
         row = watch.data[one.start]
         yield from _numbers(watch, one, row)
+        if one.method == "move_absolute" and one.how is not Kind.REFUSED and _is_no_target(watch, one.start):
+            yield Fault(watch.name, one.start, "set value", f"{one.text}, and no number was written as the position")
         if segment.command in words.ENDLESS:
             if before is not None and all(row[name] == before[name] for name in _SET_VALUES[segment.command]):
                 yield Fault(watch.name, one.start, "how often", f"{one.text} again, and no set value has changed")
@@ -82,6 +85,11 @@ def followed(watch: Watch, segment: Segment) -> Iterator[Fault]:
             text = f"State {watch.state[tick]}, and the new set values are not taken up after {last.text}"
             yield Fault(watch.name, tick, "goes on", text)
             return
+
+
+def _is_no_target(watch: Watch, tick: int) -> bool:
+    """Tell whether the position of the data is the 0.0 that stands for what is no number: nobody asks for that."""
+    return not math.isfinite(watch.asked[tick]["position"])
 
 
 def _numbers(watch: Watch, one: Given, row: Rows) -> Iterator[Fault]:

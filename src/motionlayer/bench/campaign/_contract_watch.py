@@ -63,6 +63,7 @@ class Watch(NamedTuple):
     actual: list[float]
     distance: list[float]
     data: Rows
+    asked: Rows
     given: list[Given]
     cleared: frozenset[int]
 
@@ -121,6 +122,7 @@ def watches(recording: Recording) -> Iterator[Watch]:
             recording.info["position"][:, place].tolist(),
             recording.options["distance"][:, place].tolist(),
             recording.data[:, place],
+            recording.asked[:, place],
             _without_selector(recording, place + 1, given),
             frozenset(one.end for one in given if one.method == "reset" and one.how is Kind.DONE),
         )

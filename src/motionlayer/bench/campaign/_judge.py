@@ -109,20 +109,26 @@ def _joints(b: Batch) -> dict[str, Flags]:
     p, v, a, j = (column[:, :-1] for column in (b.p, b.v, b.a, b.j))
     end_a, end_v = a + s * j, v + s * (a + s * j / 2.0)
     end_p = p + s * (v + s * (a / 2.0 + s * j / 6.0))
-    fastest = np.maximum(b.speed, np.abs(b.v).max(axis=1)[:, None])
+    fastest = np.maximum(np.abs(b.v).max(axis=1), _speeds(b).max(axis=1))[:, None]
+    hardest = np.abs(b.a).max(axis=1)[:, None]
     blur = TOLERANCES.clock * b.t[:, 1:]
-    reach = np.abs(p) + np.abs(end_p) + np.cumsum(s * fastest, axis=1)
+    path = (b.length * _speeds(b)).sum(axis=1)[:, None]
+    reach = TOLERANCES.position * path + TOLERANCES.rounding * np.maximum(np.abs(p), np.abs(end_p))
     real = s > 0.0
     return {
         "its pieces are not in order of time": s < 0.0,
         "the jerk limit is exceeded": np.abs(b.j) > jerk,
         "the acceleration jumps": real
-        & (np.abs(end_a - b.a[:, 1:]) > TOLERANCES.acceleration * b.pull + blur * jerk + UNDERFLOW),
+        & (np.abs(end_a - b.a[:, 1:]) > TOLERANCES.acceleration * hardest + blur * np.abs(j) + UNDERFLOW),
         "the velocity jumps": real
-        & (np.abs(end_v - b.v[:, 1:]) > TOLERANCES.velocity * fastest + blur * b.pull + UNDERFLOW),
-        "the position jumps": real
-        & (np.abs(end_p - b.p[:, 1:]) > TOLERANCES.position * reach + blur * fastest + UNDERFLOW),
+        & (np.abs(end_v - b.v[:, 1:]) > TOLERANCES.velocity * fastest + blur * hardest + UNDERFLOW),
+        "the position jumps": real & (np.abs(end_p - b.p[:, 1:]) > reach + blur * fastest + UNDERFLOW),
     }
+
+
+def _speeds(b: Batch) -> Floats:
+    """Return the largest |v| of every piece, shape (n, k)."""
+    return np.asarray(np.abs(_at(b, _cuts(b))[1]).max(axis=2))
 
 
 def _cuts(b: Batch) -> Floats:

@@ -33,8 +33,15 @@ UNITS: Final = (1.0, 1e3, 1e-3, 72.0)
 LARGEST_JERK: Final = 1e9
 STREAM: Final = 1
 KINDS: Final = ("position", "velocity", "stop", "passing", "synchronise", "rendezvous")
-SHARES: Final = (0.45, 0.15, 0.1, 0.12, 0.08, 0.1)
-"""Of the kinds."""
+BESIDE: Final = "beside"
+"""Is made a kind that has a target: one right beside where the fastest way ends."""
+
+DRAWN: Final = (*KINDS, BESIDE)
+SHARES: Final = (0.4, 0.15, 0.1, 0.12, 0.08, 0.1, 0.05)
+"""Of what is drawn."""
+
+NEAREST: Final = 17
+"""Decades down to which a target lies beside that place: less than rounding does to the way."""
 
 BELOW: Final = 0.95
 """Fastest moving target, of the velocity limit: one as fast as the limit and ahead stays out of reach."""
@@ -101,10 +108,10 @@ def problems(seed: int, block: int) -> list[Problem]:
     rng = stream(seed, block, STREAM)
     rows = BLOCK // len(FAMILIES)
     columns = np.stack([family(rng, rows) for family in FAMILIES.values()], axis=1).reshape(BLOCK, -1)
-    kinds = rng.choice(len(KINDS), BLOCK, p=SHARES)
+    kinds = rng.choice(len(DRAWN), BLOCK, p=SHARES)
     shares = np.stack([_share(rng, BLOCK), _share(rng, BLOCK), _decades(rng, 0.0, 1.0, BLOCK)], axis=1)
     return [
-        _problem(KINDS[kind], row, *share)
+        _problem(DRAWN[kind], row, *share)
         for kind, row, share in zip(kinds.tolist(), columns.tolist(), shares.tolist(), strict=True)
     ]
 
@@ -116,17 +123,33 @@ def _problem(kind: str, row: list[float], share: float, pull: float, later: floa
     problem = Problem(kind, p, v, a, target, limits)
     u = share * limits.velocity
     match kind:
-        case "velocity":
-            return problem._replace(target=u)
-        case "stop":
-            return problem._replace(target=0.0)
-        case "passing":
-            return problem._replace(velocity=u)
-        case "synchronise":
-            return problem._replace(velocity=BELOW * u)
+        case "velocity" | "stop":
+            return problem._replace(target=u if kind == "velocity" else 0.0)
+        case "passing" | "synchronise":
+            return problem._replace(velocity=u if kind == "passing" else BELOW * u)
         case "rendezvous":
             return _rendezvous(problem, BELOW * u, pull, later)
+        case _ if kind == BESIDE:
+            return _beside(problem, BELOW * u, pull, later)
     return problem
+
+
+def _beside(problem: Problem, velocity: float, share: float, nearness: float) -> Problem:
+    """Return a problem with a target beside where the fastest way to a velocity ends; rest, a place, a moving one.
+
+    In half of them the velocity is hardly another than the one that remains when the acceleration has been taken back.
+    """
+    p, v, a, limits = problem.p, problem.v, problem.a, problem.limits
+    kind = ("position", "passing", "synchronise")[int(1e6 * nearness) % 3]
+    away = math.copysign(10.0 ** (-NEAREST * math.log10(nearness)), share)
+    remaining = v + 0.5 * a * abs(a) / limits.jerk
+    if abs(share) > 0.5 and abs(remaining) < BELOW * limits.velocity:
+        velocity = remaining * (1.0 + (1.0 - BELOW) * away)
+    velocity = 0.0 if kind == "position" else velocity
+    way = plan_velocity(p, v, a, velocity, limits)
+    end = float(way.pieces[-1, 1]) - (velocity * way.duration if kind == "synchronise" else 0.0)
+    target = end + away * max(abs(end - p), way.high - way.low)
+    return problem._replace(kind=kind, target=target, velocity=velocity)
 
 
 def _rendezvous(problem: Problem, before: float, share: float, later: float) -> Problem:

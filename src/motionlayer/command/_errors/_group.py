@@ -158,8 +158,8 @@ GROUP: Final = {
     E.NEW_TRAVEL_VELOCITY: ErrorText("new travel velocity not valid", "see max_velocity"),
     E.AS_GOOD_AS_POSSIBLE: ErrorText(
         "warning: the command was done as well as possible",
-        "the axis turns back to its target; command it earlier, or with a stronger deceleration",
-        "a message about a move in motion that turns back; the move is not refused",
+        "the axis overshoots its target and turns back; command it earlier, or with a stronger deceleration",
+        "a message about a move in motion to a target ahead; the move is not refused",
     ),
     E.OVERRUN: ErrorText(
         "the way to the target would leave the software limits",
@@ -167,7 +167,9 @@ GROUP: Final = {
         "moves from a motion that must swing beyond the target",
     ),
     E.ORIENTED_STOP_TARGET: ErrorText(
-        "oriented stop: modulo target outside 0 to the period", "give a target of at least 0 and below modulo_period"
+        "oriented stop: modulo target outside 0 to the period",
+        "give a target of at least 0 and below modulo_period",
+        "oriented stops, which ADS clients ask for",
     ),
     E.MODULO_TARGET: ErrorText(
         "modulo target not valid for this direction",
@@ -202,7 +204,7 @@ GROUP: Final = {
     E.SAME_END_POSITION: ErrorText("two commands with the same end position", "leave one of them out", "blended moves"),
     E.BLENDING_POSITION: ErrorText(
         "blending position or direction contradicts the running command",
-        "give a position between here and the target of the running move",
+        "give a position between the beginning and the target of the running move",
         "blended moves with a blending position",
     ),
     E.DISTANCE_TOO_SHORT: ErrorText(

@@ -384,3 +384,4 @@ class ErrorId(enum.IntEnum):
 
     # Our own, from 0xF000 on
     PROGRAM_FAILED = 0xF000
+    COMMAND_NOT_DONE = 0xF001

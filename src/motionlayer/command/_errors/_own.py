@@ -7,4 +7,9 @@ from motionlayer.command._errors._text import ErrorText
 
 OWN: Final = {
     E.PROGRAM_FAILED: ErrorText("a program failed", "see the exception that left it", "programs"),
+    E.COMMAND_NOT_DONE: ErrorText(
+        "a command of the motion layer has not come to DONE",
+        "see its state in the message",
+        "`state.done()`, where the state holds no number of this list",
+    ),
 }

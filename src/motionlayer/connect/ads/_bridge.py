@@ -1,74 +1,37 @@
 """`Bridge`: the side of the run. It starts the server, hands requests to the mailbox, and outcomes back.
 
-Two threads, which sleep unless a client writes: one takes requests out of the pipe and posts them, one waits for the
-receipts in order and sends the outcomes. The cycle itself copies the image and applies what was posted; it never waits
-for a server.
+It has no thread: the cycle fetches requests at the beginning of a tick, and tells all outcomes of a tick in one piece
+at its end. So a request that is there when a tick begins is answered when that tick ends, whatever else the computer
+does; and a tick without requests costs one look at a counter.
 """
 
 import contextlib
-import mmap
 import os
 import pickle
-import queue
+import select
 import socket
 import subprocess
 import sys
 import threading
 from collections.abc import Callable
-from multiprocessing.connection import Connection as Pipe
 from typing import Final, NamedTuple
 
+from motionlayer.connect import ADS, ServerFailed
+from motionlayer.connect.ads._channel import Channel, Received
 from motionlayer.connect.ads._codes import Code
+from motionlayer.connect.ads._memory import Memory, Shared
 from motionlayer.connect.ads._plan import Contents, Plan
 from motionlayer.connect.ads._serve import serve
 from motionlayer.connect.ads._service import Outcome, Write
-from motionlayer.connect.ads._wire import NUMBER, Message, head, pack_outcomes, unpack_request
-from motionlayer.runtime import Mailbox, MailboxFull, Published, Receipt
-
-CHANNEL: Final = "ads"
-"""The channel of requests."""
+from motionlayer.connect.ads._wire import Message, pack_outcomes, unpack_request
+from motionlayer.runtime import Mailbox, MailboxFull, Receipt
 
 START_TIME: Final = 30.0
 """Wall time in seconds that a server may take to begin, or to end."""
 
 
-class ServerFailed(RuntimeError):  # noqa: N818 - the state, as a user would say it
-    """The server could not begin: its address is taken, or does not exist."""
-
-
-class Memory:
-    """The image of a run, in memory that a server shares; it has no name, and is gone with the last who uses it."""
-
-    def __init__(self) -> None:
-        self.file = os.memfd_create("motionlayer ads")
-        """File descriptor, which the server is given."""
-        self._block: mmap.mmap | None = None
-        self._published: Published | None = None
-
-    def publish(self, size: int) -> Published:
-        """Return a double buffer of so many bytes; called once."""
-        whole = Published.size_of(size)
-        os.ftruncate(self.file, whole)
-        self._block = mmap.mmap(self.file, whole)
-        self._published = Published(memoryview(self._block))
-        return self._published
-
-    @property
-    def size(self) -> int:
-        """Bytes of all of it."""
-        return len(self._block) if self._block is not None else 0
-
-    def close(self) -> None:
-        """Give the memory back."""
-        if self._published is not None:
-            self._published.release()
-        if self._block is not None:
-            self._block.close()
-        os.close(self.file)
-
-
 class Hooks(NamedTuple):
-    """What a server needs of the run beside the mailbox; called in threads of the bridge.
+    """What a server needs of the run beside the mailbox; called by the thread of the cycle.
 
     Attributes:
         tell: takes who was refused, and why.
@@ -80,26 +43,19 @@ class Hooks(NamedTuple):
 
 
 class _Posted(NamedTuple):
-    """What waits for the run."""
+    """What waits for the end of a tick."""
 
     number: int
-    writes: int
+    request: bytes
     receipt: Receipt
 
 
-class _Answer(NamedTuple):
-    """What is known already."""
-
-    number: int
-    outcomes: list[Outcome]
-
-
 class Bridge:
-    """A server for a run.
+    """A server for a run, and a `Source` of its mailbox.
 
     Args:
         plan: whom it serves.
-        mailbox: of the run, with the channel "ads".
+        mailbox: of the run, with the channel `ADS`.
         hooks: what else it needs of the run.
         own_process: the server runs in a process of its own, else in a thread.
 
@@ -111,18 +67,23 @@ class Bridge:
     """
 
     def __init__(self, plan: Plan, mailbox: Mailbox, hooks: Hooks, *, own_process: bool) -> None:
-        self.memory = Memory()
+        self._memory = Memory()
         self._mailbox = mailbox
         self._hooks = hooks
-        self._answers: queue.SimpleQueue[_Posted | _Answer | None] = queue.SimpleQueue()
-        self._sending = threading.Lock()
+        self._posted: list[_Posted] = []
+        self._shared: Shared | None = None
+        self._rings = 0
         here, there = socket.socketpair()
-        self._pipe = Pipe(here.detach())
-        self._threads: list[threading.Thread] = []
-        self._process = _process(there, self.memory.file) if own_process else None
-        if self._process is None:
-            self._start("server", lambda: _in_thread(there, self.memory.file))
-        self._pipe.send_bytes(head(Message.PLAN) + pickle.dumps(plan))
+        self._channel = Channel(here)
+        self._bell, self._rope = socket.socketpair()
+        self._bell.setblocking(False)
+        self._rope.setblocking(False)
+        self._poll = select.poll()
+        self._poll.register(self._channel, select.POLLIN)
+        self._poll.register(self._bell, select.POLLIN)
+        self._process = _process(there, self._memory.file) if own_process else None
+        self._thread = None if own_process else _thread(there, self._memory.file)
+        self._channel.send(Message.PLAN, pickle.dumps(plan))
         try:
             self.port = self._port(plan)
         except ServerFailed:
@@ -134,36 +95,71 @@ class Bridge:
         """Number of the server's process; None where it runs in a thread."""
         return None if self._process is None else self._process.pid
 
+    def share(self, size: int, cycle_ns: int) -> Shared:
+        """Return room for an image of so many bytes, which the server will see; called once."""
+        self._shared = self._memory.share(size, cycle_ns)
+        return self._shared
+
     def begin(self, contents: Contents) -> None:
         """Let the server serve; the image has been published."""
-        self._send(head(Message.CONTENTS) + pickle.dumps(contents))
-        self._start("requests", self._take)
-        self._start("outcomes", self._give)
+        self._channel.send(Message.CONTENTS, pickle.dumps(contents))
+        self._channel.drain(START_TIME)
+
+    def fetch(self) -> None:
+        """Post what clients have asked for since the last tick."""
+        channel, shared = self._channel, self._shared
+        if channel.unsent:
+            channel.flush()
+        if shared is None or shared.rings == self._rings:
+            return
+        self._rings = shared.rings  # asked before the look: what comes later rings again
+        try:
+            for message in channel.receive():
+                self._heard(message)
+            if channel.more:
+                self._rings = -1
+        except EOFError:  # the server is gone
+            with contextlib.suppress(KeyError, ValueError):
+                self._poll.unregister(channel)
+
+    def tell(self) -> None:
+        """Tell the outcomes of this tick."""
+        posted, self._posted = self._posted, []
+        if posted:
+            self._channel.send_all(Message.OUTCOMES, [(one.number, _outcomes(one)) for one in posted])
+
+    def sleep(self, seconds: float) -> None:
+        """Return after a time, or as soon as a client asks for something or somebody stirs."""
+        if self._poll.poll(seconds * 1e3):
+            self._rings = -1  # it may ring a moment later only
+            with contextlib.suppress(BlockingIOError):
+                self._bell.recv(64)
+
+    def stir(self) -> None:
+        """Let the run look at once; for any thread."""
+        with contextlib.suppress(OSError):  # it rings already, or there is nobody any more
+            self._rope.send(b"\0")
 
     def close(self) -> None:
         """Stop the server; its clients are disconnected."""
-        self._send(head(Message.STOP))
+        self._channel.send(Message.STOP)
+        self._channel.drain(START_TIME)
         if self._process is not None:
             try:
                 self._process.wait(START_TIME)
             except subprocess.TimeoutExpired:
                 self._process.kill()
                 self._process.wait()
-        for thread in self._threads:
-            thread.join(START_TIME)
-        self._pipe.close()
-        self.memory.close()
-
-    def _start(self, name: str, work: Callable[[], None]) -> None:
-        thread = threading.Thread(target=work, name=f"ads {name}", daemon=True)
-        self._threads.append(thread)
-        thread.start()
+        if self._thread is not None:
+            self._thread.join(START_TIME)
+        for end in (self._channel, self._bell, self._rope):
+            end.close()
+        self._memory.close()
 
     def _port(self, plan: Plan) -> int:
         answer = b""
-        with contextlib.suppress(EOFError, ConnectionError):
-            if self._pipe.poll(START_TIME):
-                answer = self._pipe.recv_bytes()[1:]
+        with contextlib.suppress(EOFError, TimeoutError):
+            answer = self._channel.wait(START_TIME).data
         if not answer.isdigit():
             why = answer.decode() or f"{plan.host}:{plan.port}: the server does not begin"
             raise ServerFailed(
@@ -172,49 +168,40 @@ class Bridge:
             )
         return int(answer)
 
-    def _take(self) -> None:
-        """Hand on what the server says, until it is gone."""
-        with contextlib.suppress(EOFError, OSError):
-            while True:
-                self._heard(self._pipe.recv_bytes())
-        self._answers.put(None)
-
-    def _heard(self, message: bytes) -> None:
-        """Hand a message on. This thread sends nothing: the server may wait for it before it reads again."""
-        if message[0] == Message.TOLD:
-            who, _, why = message[1:].decode(errors="replace").partition("\0")
+    def _heard(self, message: Received) -> None:
+        """Take a message of the server."""
+        _, number, data = message
+        if message.message == Message.TOLD:
+            who, _, why = data.decode(errors="replace").partition("\0")
             self._hooks.tell(who, why)
             return
-        _, number = NUMBER.unpack_from(message)
-        payload = message[NUMBER.size :]
-        writes = unpack_request(payload)[1]
-        if message[0] == Message.CONTROL:
-            self._hooks.control(writes[0], lambda outcome: self._answers.put(_Answer(number, [outcome])))
+        if message.message == Message.CONTROL:
+            (write,) = unpack_request(data)[1]
+            self._hooks.control(write, lambda outcome: self._answer(number, [outcome]))
             return
         try:
-            self._answers.put(_Posted(number, len(writes), self._mailbox.post(CHANNEL, payload)))
+            self._posted.append(_Posted(number, data, self._mailbox.post(ADS, data)))
         except MailboxFull:
-            self._answers.put(_Answer(number, [Outcome(Code.MAILBOX_FULL)] * len(writes)))
+            self._answer(number, _refused(data, Code.MAILBOX_FULL))
 
-    def _give(self) -> None:
-        """Send what has become of the requests, in their order."""
-        while (answer := self._answers.get()) is not None:
-            outcomes = pack_outcomes(answer.outcomes) if isinstance(answer, _Answer) else _awaited(answer)
-            self._send(NUMBER.pack(Message.OUTCOMES, answer.number) + outcomes)
-
-    def _send(self, message: bytes) -> None:
-        with self._sending, contextlib.suppress(OSError):  # the server is gone, and nobody waits for the answer
-            self._pipe.send_bytes(message)
+    def _answer(self, number: int, outcomes: list[Outcome]) -> None:
+        self._channel.send(Message.OUTCOMES, pack_outcomes(outcomes), number)
 
 
-def _awaited(posted: _Posted) -> bytes:
-    """Wait for the tick that does what was posted; return the outcomes."""
+def _outcomes(posted: _Posted) -> bytes:
+    """Return what has become of a request whose tick has ended."""
+    receipt = posted.receipt
     try:
-        posted.receipt.wait(threading.TIMEOUT_MAX)
+        receipt.wait(0.0)
     except Exception as error:  # noqa: BLE001 - whatever the handler has raised, the client gets an answer
         code = Code.NOT_READY if isinstance(error, RuntimeError) else Code.DEVICE_ERROR
-        return pack_outcomes([Outcome(code)] * posted.writes)
-    return posted.receipt.result
+        return pack_outcomes(_refused(posted.request, code))
+    return receipt.result
+
+
+def _refused(request: bytes, code: Code) -> list[Outcome]:
+    """Return the outcomes of a request none of whose writes is done."""
+    return [Outcome(code)] * len(unpack_request(request)[1])
 
 
 def _process(there: socket.socket, memory: int) -> subprocess.Popen[bytes]:
@@ -236,6 +223,8 @@ def _process(there: socket.socket, memory: int) -> subprocess.Popen[bytes]:
         )
 
 
-def _in_thread(there: socket.socket, memory: int) -> None:
-    with Pipe(there.detach()) as pipe:
-        serve(pipe, memory)
+def _thread(there: socket.socket, memory: int) -> threading.Thread:
+    """Start a server in a thread."""
+    thread = threading.Thread(target=serve, args=(there, memory), name="ads server", daemon=True)
+    thread.start()
+    return thread

@@ -1,9 +1,21 @@
 """`Client`: one AMS address on a connection, and what it holds."""
 
+import functools
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Final
 
 from motionlayer.connect.ads._codes import AdsError, Code
 from motionlayer.connect.ads._frame import Address
+
+LOGGED: Final = (
+    Code.NOT_PERMITTED,
+    Code.ACCESS_DENIED,
+    Code.NO_MORE_HANDLES,
+    Code.WATCH_SIZE,
+    Code.MAILBOX_FULL,
+)
+"""Refusals that the log tells."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +56,7 @@ class Client:
         host: where its connection comes from.
         read_only: it may change nothing.
         limits: what it may hold.
+        tell: takes why something was refused, for the log.
         handles: its handles.
         notifications: its notifications.
         watched: bytes of these.
@@ -53,9 +66,15 @@ class Client:
     host: str
     read_only: bool = False
     limits: Limits = field(default_factory=Limits)
+    tell: Callable[[str], None] = field(default=lambda _why: None, repr=False)
     handles: set[int] = field(default_factory=set)
     notifications: set[int] = field(default_factory=set)
     watched: int = 0
+
+    def refused(self, error: AdsError) -> None:
+        """Take up a refusal: those that concern access and limits are logged, others are between client and server."""
+        if error.code in LOGGED:
+            self.tell(str(error))
 
     def require_writing(self) -> None:
         """Refuse a client that may change nothing.
@@ -66,5 +85,10 @@ class Client:
         if self.read_only:
             raise AdsError(Code.NOT_PERMITTED, f"{self} may only read")
 
-    def __str__(self) -> str:
+    @functools.cached_property
+    def name(self) -> str:
+        """Who it is, for messages."""
         return f"{self.address} at {self.host}"
+
+    def __str__(self) -> str:
+        return self.name

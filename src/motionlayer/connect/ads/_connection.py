@@ -1,4 +1,4 @@
-"""`Connection`: one stream of AMS/TCP, from bytes to answers (ads 1 and 2). It does no input or output of its own.
+"""`Connection`: one stream of AMS/TCP, from bytes to answers (ads 1). It does no input or output of its own.
 
 A packet is answered at once, or when the run has done what was asked: then the answer is sent later, and others may
 overtake it. What is malformed is answered with the error the protocol has for it; only a frame that cannot be read at
@@ -7,39 +7,33 @@ all ends the connection.
 
 import struct
 from collections.abc import Callable
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
-from motionlayer.connect.ads import _sums as sums
-from motionlayer.connect.ads._client import Client
 from motionlayer.connect.ads._codes import AdsError, Code
-from motionlayer.connect.ads._frame import NO_RETURN, RESPONSE, Address, Carrier, Frame, Packet, Splitter, framed
-from motionlayer.connect.ads._notify import Order
+from motionlayer.connect.ads._commands import Commands, Lane
+from motionlayer.connect.ads._frame import (
+    ANSWER,
+    HEAD,
+    NO_RETURN,
+    RESPONSE,
+    TCP,
+    Address,
+    Carrier,
+    Frame,
+    Splitter,
+    framed,
+)
 from motionlayer.connect.ads._router import Router
-from motionlayer.connect.ads._service import Later, Outcome, Service, Write
+from motionlayer.connect.ads._service import Later
 
-DEVICE_INFO: Final = 1
-READ: Final = 2
-WRITE: Final = 3
-STATE: Final = 4
-CONTROL: Final = 5
-ADD_NOTIFICATION: Final = 6
-DELETE_NOTIFICATION: Final = 7
-READ_WRITE: Final = 9
+if TYPE_CHECKING:
+    from motionlayer.connect.ads._client import Client
 
 _U16: Final = struct.Struct("<H")
-_U32: Final = struct.Struct("<I")
-_STATE: Final = struct.Struct("<IHH")
-_RESULT: Final = struct.Struct("<II")
-_ADDRESS: Final = struct.Struct("<3I")
-_BOTH: Final = struct.Struct("<4I")
-_CONTROL: Final = struct.Struct("<HHI")
-_NOTHING: Final = struct.pack("<I", Code.NO_ERROR)
+_BACK: Final = struct.Struct("<8s8s")
 
 PORTION: Final = 64 * 1024
 """Bytes of answers that are sent together."""
-
-Body = bytes | Later[bytes]
-"""What follows the header of an answer."""
 
 
 class Connection:
@@ -56,26 +50,17 @@ class Connection:
         self._router = router
         self._host = host
         self._send = send
-        self._framed = framed if split else bytes
+        self._from = 0 if split else TCP.size
         self._splitter = Splitter()
         self._clients: dict[Address, Client] = {}
+        self._lanes: dict[bytes, Lane] = {}
         self._ports: set[int] = set()
-        self._waiting = 0
+        self._commands = Commands(router, lambda packet: send(framed(packet) if split else packet))
         self._complete, self._looked = 0, -1
         self.closing = False
         """The stream is to be closed when everything has been sent."""
         self.broken = False
         """Nothing can be sent any more; what has come is not answered."""
-        self._commands: dict[int, Callable[[Service, Client, Packet], Body]] = {
-            DEVICE_INFO: lambda service, _client, _packet: _NOTHING + service.device_info(),
-            READ: self._read,
-            WRITE: self._write,
-            STATE: lambda service, _client, _packet: _STATE.pack(0, *service.state()),
-            CONTROL: self._control,
-            ADD_NOTIFICATION: self._add_notification,
-            DELETE_NOTIFICATION: self._delete_notification,
-            READ_WRITE: self._read_write,
-        }
 
     def receive(self, data: bytes) -> None:
         """Take bytes of the stream, and send what they are answered with.
@@ -102,7 +87,9 @@ class Connection:
     @property
     def idle(self) -> bool:
         """Nothing is held for this stream, and nobody waits for an answer."""
-        return not self._waiting and not any(one.handles or one.notifications for one in self._clients.values())
+        return not self._commands.waiting and not any(
+            one.handles or one.notifications for one in self._clients.values()
+        )
 
     def stuck(self) -> bool:
         """Tell whether nothing has been completed since the last call, though a frame has begun or none ever came."""
@@ -116,148 +103,66 @@ class Connection:
         for client in self._clients.values():
             self._router.forget(client)
         self._clients.clear()
+        self._lanes.clear()
         for port in self._ports:
             self._router.release_port(port)
         self._ports.clear()
 
     def packet(self, raw: bytes) -> bytes:
         """Return the answer to an AMS packet as it is sent; empty where there is none, or none yet."""
-        packet = Packet.parse(raw)
-        if packet is None:
-            head = Packet.head(raw)
-            return b"" if head is None or head.flags & RESPONSE else self._answer(head, b"", Code.INVALID_AMS_LENGTH)
-        if packet.flags & RESPONSE:
+        if len(raw) < HEAD.size or (head := HEAD.unpack_from(raw))[2] & RESPONSE:
             return b""
-        client, error = self._client(packet)
-        command = self._commands.get(packet.command)
-        if client is None or command is None:
-            return self._answer(packet, b"", error or Code.UNKNOWN_COMMAND)
+        addresses, command, flags, length, _, number = head
+        lane, error = self._lanes.get(addresses), Code.NO_ERROR
+        if length != len(raw) - HEAD.size:
+            lane, error = None, Code.INVALID_AMS_LENGTH
+        elif lane is None:
+            lane, error = self._new_lane(addresses)
+        act = self._commands.by_number.get(command)
+        if lane is None or act is None:
+            return self._answer(_back(addresses), command, flags, number, b"", error or Code.UNKNOWN_COMMAND)
         try:
-            body = command(self._router.services[packet.target.port], client, packet)
+            body = act(lane, raw[HEAD.size :])
         except AdsError as refused:
-            self._router.told(client, refused)
-            empty = _RESULT.size if packet.command in (READ, READ_WRITE) else _U32.size
-            body = _U32.pack(refused.code).ljust(empty, b"\0")
+            body = self._commands.refused(lane, command, refused)
         if isinstance(body, Later):
-            self._waiting += 1
-            body.then(lambda data: self._late(packet, data))
+            self._commands.waiting += 1
+            body.then(lambda data: self._late(lane.back, command, flags, number, data))
             return b""
-        return self._answer(packet, body)
+        return self._answer(lane.back, command, flags, number, body)
 
-    def _answer(self, packet: Packet, data: bytes, error: int = 0) -> bytes:
-        if packet.flags & NO_RETURN:
+    def _answer(self, back: bytes, command: int, flags: int, number: int, body: bytes, error: int = 0) -> bytes:
+        if flags & NO_RETURN:
             return b""
-        return self._framed(packet.answer(data, error).pack())
+        size = len(body)
+        answer = ANSWER.pack(0, HEAD.size + size, back, command, flags | RESPONSE, size, error, number) + body
+        return answer[self._from :]
 
-    def _late(self, packet: Packet, data: bytes) -> None:
-        self._waiting -= 1
-        answer = self._answer(packet, data)
+    def _late(self, back: bytes, command: int, flags: int, number: int, body: bytes) -> None:
+        self._commands.waiting -= 1
+        answer = self._answer(back, command, flags, number, body)
         if answer and not self.broken:
             self._send(answer)
 
-    def _client(self, packet: Packet) -> tuple[Client | None, int]:
-        """Return who sends a packet, or None and the AMS error why it is not answered."""
-        error = self._router.error_of(packet)
+    def _new_lane(self, addresses: bytes) -> tuple[Lane | None, Code]:
+        """Return who asks whom by these addresses, or the AMS error why they are not answered."""
+        served = Address(addresses[:6], int.from_bytes(addresses[6:8], "little"))
+        error = self._router.error_of(served)
         if error:
             return None, error
-        client = self._clients.get(packet.source)
+        source = Address(addresses[8:14], int.from_bytes(addresses[14:16], "little"))
+        client = self._clients.get(source)
         if client is None:
             if len(self._clients) >= self._router.limits.addresses:
+                self._router.tell(f"{source} at {self._host}", "too many addresses on one connection")
                 return None, Code.NO_MEMORY
-            client = self._router.admit(packet.source, self._host)
+            client = self._router.admit(source, self._host)
             if client is None:
                 return None, Code.TARGET_MACHINE_NOT_FOUND
-            self._clients[packet.source] = client
-        return client, 0
-
-    def _ask(self, client: Client, write: Write, finish: Callable[[Outcome], bytes]) -> Later[bytes]:
-        """Let the run do something, and make the answer out of the outcome."""
-        self._require_patience(client)
-        later: Later[bytes] = Later()
-        told = self._router.outbox.post([write], str(client))
-        told.then(lambda outcomes: later.settle(finish(outcomes[0])))
-        return later
-
-    def _require_patience(self, client: Client) -> None:
-        if self._waiting >= client.limits.waiting:
-            raise AdsError(Code.MAILBOX_FULL, f"{client}: {self._waiting} requests wait for the run")
-
-    def _read(self, service: Service, client: Client, packet: Packet) -> Body:
-        group, offset, length = _unpack(_ADDRESS, packet.data)
-        data = service.read(client, group, offset, length)
-        return _RESULT.pack(Code.NO_ERROR, len(data)) + data
-
-    def _write(self, service: Service, client: Client, packet: Packet) -> Body:
-        group, offset, length = _unpack(_ADDRESS, packet.data)
-        data = packet.data[_ADDRESS.size :]
-        if length != len(data):
-            raise AdsError(Code.INVALID_SIZE, f"{len(data)} bytes to write, the request says {length}")
-        write = service.write(client, group, offset, data)
-        return _NOTHING if write is None else self._ask(client, write, lambda outcome: _U32.pack(outcome.code))
-
-    def _control(self, service: Service, client: Client, packet: Packet) -> Body:
-        client.require_writing()
-        state, device_state, length = _unpack(_CONTROL, packet.data)
-        write = service.control(state, device_state, packet.data[_CONTROL.size :][:length])
-        return _NOTHING if write is None else self._ask(client, write, lambda outcome: _U32.pack(outcome.code))
-
-    def _read_write(self, service: Service, client: Client, packet: Packet) -> Body:
-        group, offset, length, written = _unpack(_BOTH, packet.data)
-        data = packet.data[_BOTH.size :]
-        if written != len(data):
-            raise AdsError(Code.INVALID_SIZE, f"{len(data)} bytes to write, the request says {written}")
-        if group in sums.GROUPS:
-            return self._sum(service, client, packet, group, offset, data)
-        result = service.read_write(client, group, offset, length, data)
-        if isinstance(result, Write):
-            return self._ask(
-                client, result, lambda outcome: _RESULT.pack(outcome.code, len(outcome.data)) + outcome.data
-            )
-        return _RESULT.pack(Code.NO_ERROR, len(result)) + result
-
-    def _sum(self, service: Service, client: Client, packet: Packet, group: int, count: int, data: bytes) -> Body:
-        outbox = self._router.outbox
-        if group in (sums.WRITE, sums.READ_WRITE):
-            self._require_patience(client)
-            ask = sums.write if group == sums.WRITE else sums.read_write
-            answer = ask(service, client, outbox, count, data)
-        elif group == sums.ADD_NOTIFICATIONS:
-            answer = self._add_notifications(service, client, packet, count, data)
-        elif group == sums.DELETE_NOTIFICATIONS:
-            answer = self._delete_notifications(client, count, data)
-        else:
-            answer = sums.read(service, client, group, count, data)
-        if not isinstance(answer, Later):
-            return _RESULT.pack(Code.NO_ERROR, len(answer)) + answer
-        later: Later[bytes] = Later()
-        answer.then(lambda data: later.settle(_RESULT.pack(Code.NO_ERROR, len(data)) + data))
-        return later
-
-    def _add_notification(self, service: Service, client: Client, packet: Packet) -> Body:
-        return _RESULT.pack(Code.NO_ERROR, self._watch(service, client, packet, packet.data))
-
-    def _watch(self, service: Service, client: Client, packet: Packet, data: bytes) -> int:
-        order = Order.parse(data)
-        watched = service.watch(client, order.group, order.offset, order.length)
-        return self._router.notifications.add(
-            client, packet.target, order, watched, lambda raw: self._send(self._framed(raw))
-        )
-
-    def _delete_notification(self, _service: Service, client: Client, packet: Packet) -> Body:
-        (handle,) = _unpack(_U32, packet.data)
-        self._router.notifications.delete(client, handle)
-        return _NOTHING
-
-    def _add_notifications(self, service: Service, client: Client, packet: Packet, count: int, data: bytes) -> bytes:
-        parts = sums.pieces(data, count, 40)
-        return b"".join(_told(lambda part=part: self._watch(service, client, packet, part)) for part in parts)  # type: ignore[misc]
-
-    def _delete_notifications(self, client: Client, count: int, data: bytes) -> bytes:
-        def delete(part: bytes) -> int:
-            self._router.notifications.delete(client, _U32.unpack(part)[0])
-            return 0
-
-        return b"".join(_told(lambda part=part: delete(part))[:4] for part in sums.pieces(data, count, 4))  # type: ignore[misc]
+            self._clients[source] = client
+        lane = Lane(client, self._router.services[served.port], served, _back(addresses))
+        self._lanes[addresses] = lane
+        return lane, Code.NO_ERROR
 
     def _carrier(self, frame: Frame) -> bytes:
         """Answer what a client asks of the router it believes to talk to (ads 1.2)."""
@@ -266,6 +171,7 @@ class Connection:
             many = len(self._ports) >= self._router.limits.addresses
             port = None if many else self._router.take_port(wanted)
             if port is None:
+                self._router.tell(self._host, f"AMS port {wanted} is taken, or too many are; it is disconnected")
                 self.closing = True
                 return b""
             self._ports.add(port)
@@ -278,14 +184,7 @@ class Connection:
         return b""
 
 
-def _unpack(shape: struct.Struct, data: bytes) -> tuple[int, ...]:
-    if len(data) < shape.size:
-        raise AdsError(Code.INVALID_SIZE, f"{len(data)} bytes, at least {shape.size} are needed")
-    return shape.unpack_from(data)
-
-
-def _told(ask: Callable[[], int]) -> bytes:
-    try:
-        return _RESULT.pack(Code.NO_ERROR, ask())
-    except AdsError as error:
-        return _RESULT.pack(error.code, 0)
+def _back(addresses: bytes) -> bytes:
+    """Return the addresses of a request as those of its answer."""
+    target, source = _BACK.unpack(addresses)
+    return _BACK.pack(source, target)

@@ -3,11 +3,8 @@
 import struct
 from typing import Final
 
+from motionlayer.connect.ads._numbers import DATA_AREA, DATA_BITS
 from motionlayer.connect.ads._tree import Attributes, MethodNode, ParameterNode, Place, TypeNode
-
-DATA_AREA: Final = 0x4040
-DATA_BITS: Final = 0x4041
-"""Index groups of the published image, by bytes and by bits."""
 
 CODE_PAGE: Final = "cp1252"
 

@@ -13,6 +13,9 @@ MAX_FRAME: Final = 4 * 1024 * 1024
 
 TCP: Final = struct.Struct("<HI")
 AMS: Final = struct.Struct("<6sH6sHHHIII")
+HEAD: Final = struct.Struct("<16sHHIII")
+ANSWER: Final = struct.Struct("<HI16sHHIII")
+"""Header of a packet: with addresses taken apart; with both as they lie; with that of the frame before it."""
 
 REQUEST: Final = 0x0004
 RESPONSE: Final = 0x0001

@@ -4,7 +4,9 @@ The time of a tick stands in the image itself, because only the run knows it: in
 on later, and one that was taken back begins anew.
 """
 
+import contextlib
 import struct
+from collections.abc import Iterator
 from typing import Final, NamedTuple
 
 from motionlayer.runtime import Published
@@ -12,6 +14,9 @@ from motionlayer.runtime import Published
 STATUS: Final = struct.Struct("<Q5H6x")
 STATES: Final = 8
 """Where in a status the states of the PLC stand."""
+
+BEGINNINGS: Final = 16
+"""Where in a status stands how often the run has begun."""
 
 
 class Status(NamedTuple):
@@ -23,7 +28,8 @@ class Status(NamedTuple):
         plc_device: its device state.
         system: ADS state of the system service.
         system_device: its device state.
-        restarts: how often the run has begun anew.
+        beginnings: how often the run has begun, 1 without a restart; clients that see it change look for everything
+            anew.
     """
 
     stamp: int
@@ -31,36 +37,69 @@ class Status(NamedTuple):
     plc_device: int = 0
     system: int = 0
     system_device: int = 0
-    restarts: int = 0
+    beginnings: int = 1
+
+
+class Snapshot(NamedTuple):
+    """A publication.
+
+    Attributes:
+        number: of the publication.
+        tick: of the run.
+        stamp: time of the tick, FILETIME.
+        data: all bytes, with the status.
+    """
+
+    number: int
+    tick: int
+    stamp: int
+    data: bytes
 
 
 class SharedImage:
-    """The image in shared memory; see `Image`."""
+    """The image in shared memory; see `Image`.
+
+    Args:
+        published: the image.
+    """
 
     def __init__(self, published: Published) -> None:
         self._published = published
         self.size = published.size - STATUS.size
         """Bytes of the symbols."""
+        self._together = False
+        self._held: bytes | None = None
 
     @property
     def count(self) -> int:
         """Number of publications so far."""
         return self._published.count
 
-    @property
-    def tick(self) -> int:
-        """The last finished tick."""
-        return self._published.tick
-
     def read(self, offset: int, length: int) -> bytes:
         """Return bytes of one and the same tick."""
-        return self._published.read(slice(offset, offset + length))[1]
+        if self._together:
+            return self._whole()[offset : offset + length]
+        return self._published.whole(slice(offset, offset + length))[2]
 
     def status(self) -> Status:
         """Return how the run is."""
-        return Status(*STATUS.unpack(self._published.read(slice(self.size, None))[1]))
+        return Status(*STATUS.unpack(self.read(self.size, STATUS.size)))
 
-    def snapshot(self) -> tuple[int, int, bytes]:
-        """Return the last finished tick, its stamp, and all bytes of it with the status."""
-        tick, data = self._published.read(slice(None))
-        return tick, STATUS.unpack_from(data, self.size)[0], data
+    @contextlib.contextmanager
+    def together(self) -> Iterator[None]:
+        """Let all that is read meanwhile be of the same tick."""
+        self._together = True
+        try:
+            yield
+        finally:
+            self._together, self._held = False, None
+
+    def snapshot(self) -> Snapshot:
+        """Return the last publication as a whole."""
+        number, tick, data = self._published.whole()
+        return Snapshot(number, tick, STATUS.unpack_from(data, self.size)[0], data)
+
+    def _whole(self) -> bytes:
+        if self._held is None:
+            self._held = self._published.whole()[2]
+        return self._held

@@ -2,14 +2,17 @@
 
 import bisect
 from collections.abc import Callable, Mapping, Sequence
-from typing import Final, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Final, NamedTuple, Protocol, runtime_checkable
 
 from motionlayer.connect.ads._codes import Code
 from motionlayer.connect.ads._describe import Placed
 from motionlayer.connect.ads._image import STATUS, Status
+from motionlayer.connect.ads._memory import Shared
 from motionlayer.connect.ads._service import Kind, Outcome, Write
 from motionlayer.connect.ads._wire import pack_outcomes, unpack_request
-from motionlayer.runtime import Published
+
+if TYPE_CHECKING:
+    from motionlayer.iec import Memory
 
 Act = Callable[[Write, str], Outcome]
 """Does what one kind of request asks for; gets who asks."""
@@ -23,6 +26,22 @@ _REFUSED: Final[tuple[tuple[type[Exception], Code], ...]] = (
 """What a write may raise, and how that is answered."""
 
 _KINDS: Final = tuple(kind for kind, _ in _REFUSED)
+
+
+LARGE: Final = 4096
+"""Bytes of a variable that is copied by itself."""
+
+
+class _Stretch(NamedTuple):
+    """Variables that are published in one piece.
+
+    Attributes:
+        where: in the image.
+        pieces: their bytes, and those between them.
+    """
+
+    where: slice
+    pieces: "list[bytes | Memory]"
 
 
 @runtime_checkable
@@ -45,9 +64,10 @@ class Inside:
         self._find_places = places
         self._known: list[Placed] | None = None
         self._starts: list[int] = []
-        self._published: Published | None = None
+        self._shared: Shared | None = None
         self._status: Callable[[int], Status] = lambda _tick: Status(0, 0)
         self._stale: list[Stale] = []
+        self._stretches: list[_Stretch] = []
         self._acts: dict[Kind, Act] = {Kind.BYTES: self._bytes, Kind.BIT: self._bit, **(acts or {})}
 
     @property
@@ -64,31 +84,34 @@ class Inside:
         end = self.places[-1].stop if self.places else 0
         return -(-end // 8) * 8 + STATUS.size
 
-    def begin(self, published: Published, status: Callable[[int], Status]) -> None:
+    def begin(self, shared: Shared, status: Callable[[int], Status]) -> None:
         """Publish from now on.
 
         Args:
-            published: of `size` bytes.
+            shared: room for `size` bytes.
             status: returns how the run is after a tick.
         """
-        self._published, self._status = published, status
+        self._shared, self._status = shared, status
         self._stale = [one.symbol.source for one in self.places if isinstance(one.symbol.source, Stale)]
+        self._stretches = _stretches(self.places)
 
     def end(self) -> None:
         """Publish no more."""
-        self._published = None
+        self._shared = None
 
     def publish(self, tick: int) -> None:
         """Let servers see this tick; a stage of step OUTPUTS."""
-        published = self._published
-        if published is None:
+        shared = self._shared
+        if shared is None:
             return
+        published = shared.published
         for source in self._stale:
             source.publish()
         image = published.begin(tick)
-        for place in self.places:
-            image[place.start : place.stop] = place.symbol.source.memory
+        for where, pieces in self._stretches:
+            image[where] = pieces[0] if len(pieces) == 1 else b"".join(pieces)
         STATUS.pack_into(image, published.size - STATUS.size, *self._status(tick))
+        shared.history.keep(published.count + 1, tick, image)
         published.finish()
 
     def apply(self, payload: bytes) -> bytes:
@@ -121,3 +144,23 @@ class Inside:
         (old,) = source.read(at, 1)
         source.write(at, bytes((old & ~(1 << bit) | bool(write.data[:1].strip(b"\0")) << bit,)), client)
         return Outcome(Code.NO_ERROR)
+
+
+def _stretches(places: Sequence[Placed]) -> list[_Stretch]:
+    """Return what is copied to publish all variables: to join small ones takes half the time of one copy for each."""
+    found: list[_Stretch] = []
+    pieces: list[bytes | Memory] = []
+    start = stop = 0
+    for one in places:
+        memory = one.symbol.source.memory
+        if len(memory) >= LARGE:
+            if pieces:
+                found.append(_Stretch(slice(start, stop), pieces))
+            found.append(_Stretch(slice(one.start, one.stop), [memory]))
+            pieces, start = [], one.stop
+        else:
+            pieces += [bytes(one.start - stop), memory]
+        stop = one.stop
+    if pieces:
+        found.append(_Stretch(slice(start, stop), pieces))
+    return found

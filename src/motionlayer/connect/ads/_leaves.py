@@ -4,7 +4,7 @@ import struct
 from collections.abc import Callable, Iterator
 from typing import Final, NamedTuple
 
-from motionlayer.connect.ads._entries import CODE_PAGE, DATA_BITS
+from motionlayer.connect.ads._entries import CODE_PAGE
 
 _SYMBOL: Final = struct.Struct("<6I3H")
 _TYPE: Final = struct.Struct("<8I5H")
@@ -18,25 +18,31 @@ Value = int | float | bool | str
 
 
 class Leaf(NamedTuple):
-    """An elementary value at a device.
+    """An elementary value of a symbol.
 
     Attributes:
-        name: path of the symbol.
-        group: index group.
-        offset: index offset.
+        name: path of the value.
+        start: its first byte in those of the symbol.
         size: bytes.
         kind: its type.
+        bit: number of the bit in the byte `start`, of a member that is a bit.
     """
 
     name: str
-    group: int
-    offset: int
+    start: int
     size: int
     kind: "TypeEntry"
+    bit: int | None = None
 
-    def value(self, data: bytes) -> Value:
-        """Return the value in bytes; those of an enumeration by name."""
-        number = _decoded(self.kind.adst, data)
+    def raw(self, data: bytes) -> bytes:
+        """Return the bytes of the value among those of the symbol."""
+        if self.bit is not None:
+            return b"\1" if data[self.start] >> self.bit & 1 else b"\0"
+        return data[self.start : self.start + self.size]
+
+    def value(self, raw: bytes) -> Value:
+        """Return the value in its bytes; those of an enumeration by name."""
+        number = _decoded(self.kind.adst, raw)
         return self.kind.values.get(number, number) if isinstance(number, int) else number
 
 
@@ -83,6 +89,15 @@ def symbol_of(raw: bytes) -> SymbolEntry:
     return SymbolEntry(_text(raw, at, name), _text(raw, at + name + 1, kind), group, offset, size)
 
 
+def symbols_of(raw: bytes) -> Iterator[SymbolEntry]:
+    """Yield the symbol entries of an upload."""
+    at = 0
+    while at < len(raw):
+        (length,) = struct.unpack_from("<I", raw, at)
+        yield symbol_of(raw[at : at + length])
+        at += length
+
+
 def type_of(raw: bytes) -> TypeEntry:
     """Return a type entry with those of its members."""
     _, _, _, _, size, offset, adst, flags, *lengths, dimensions, items = _TYPE.unpack_from(raw)
@@ -124,29 +139,23 @@ def leaves(symbol: SymbolEntry, type_named: Callable[[str], TypeEntry]) -> Itera
         symbol: any symbol.
         type_named: returns a type.
     """
-    kind = type_named(symbol.type)
-    if symbol.group == DATA_BITS:
-        yield Leaf(symbol.name, symbol.group, symbol.offset, 1, kind)
-    else:
-        yield from _inside(symbol.name, symbol.group, symbol.offset, kind, type_named)
+    return _inside(symbol.name, 0, type_named(symbol.type), type_named)
 
 
-def _inside(
-    name: str, group: int, offset: int, kind: TypeEntry, type_named: Callable[[str], TypeEntry]
-) -> Iterator[Leaf]:
+def _inside(name: str, start: int, kind: TypeEntry, type_named: Callable[[str], TypeEntry]) -> Iterator[Leaf]:
     if kind.dimensions:
         of = type_named(kind.type)
         for number, index in enumerate(_indices(kind.dimensions)):
-            yield from _inside(f"{name}[{index}]", group, offset + number * of.size, of, type_named)
+            yield from _inside(f"{name}[{index}]", start + number * of.size, of, type_named)
     elif kind.members:
         for member in kind.members:
             path, of = f"{name}.{member.name}", type_named(member.type)
             if member.bit:
-                yield Leaf(path, DATA_BITS, offset * 8 + member.offset, 1, of)
+                yield Leaf(path, start + member.offset // 8, 1, of, member.offset % 8)
             else:
-                yield from _inside(path, group, offset + member.offset, of, type_named)
+                yield from _inside(path, start + member.offset, of, type_named)
     else:
-        yield Leaf(name, group, offset, kind.size, kind)
+        yield Leaf(name, start, kind.size, kind)
 
 
 def _indices(dimensions: tuple[tuple[int, int], ...]) -> Iterator[str]:

@@ -1,15 +1,18 @@
-"""`PipeOutbox`: requests of clients on their way to the run, and what is told to its log."""
+"""`ChannelOutbox`: requests of clients on their way to the run, and what is told to its log."""
 
 from collections.abc import Callable, Sequence
-from multiprocessing.connection import Connection as Pipe
 from typing import Final
 
+from motionlayer.connect.ads._channel import Channel
 from motionlayer.connect.ads._codes import AdsError, Code
 from motionlayer.connect.ads._service import Kind, Later, Outcome, Write
-from motionlayer.connect.ads._wire import NUMBER, Message, head, pack_request, unpack_outcomes
+from motionlayer.connect.ads._wire import Message, pack_request, unpack_outcomes
 
 MAX_WAITING: Final = 10_000
 """Requests of all clients that wait for the run."""
+
+MAX_UNSENT: Final = 16 * 1024 * 1024
+"""Bytes of requests that the run has not taken yet."""
 
 MOST_TOLD: Final = 20
 """Refusals a second that reach the log; the others are counted."""
@@ -17,41 +20,51 @@ MOST_TOLD: Final = 20
 _LAST: Final = 0xFFFF_FFFE
 
 
-class PipeOutbox:
-    """Requests through a pipe to the run; see `Outbox`."""
+class ChannelOutbox:
+    """Requests through a channel to the run; see `Outbox`.
 
-    def __init__(self, pipe: Pipe) -> None:
-        self._pipe = pipe
+    Args:
+        channel: to the run.
+        sent: called after something was sent.
+    """
+
+    def __init__(self, channel: Channel, sent: Callable[[], None]) -> None:
+        self._channel = channel
+        self._sent = sent
         self._waiting: dict[int, Later[list[Outcome]]] = {}
         self._last = 0
 
+    def __len__(self) -> int:
+        """Return how many requests wait."""
+        return len(self._waiting)
+
     def post(self, writes: Sequence[Write], client: str) -> Later[list[Outcome]]:
         """Hand writes to the run; the arguments are those of `Outbox.post`."""
-        if len(self._waiting) >= MAX_WAITING:
+        if len(self._waiting) >= MAX_WAITING or self._channel.unsent > MAX_UNSENT:
             raise AdsError(Code.MAILBOX_FULL, f"{len(self._waiting)} requests wait for the run")
         self._last = self._last % _LAST + 1
         later: Later[list[Outcome]] = Later()
         self._waiting[self._last] = later
         message = Message.CONTROL if writes[0].kind is Kind.CONTROL else Message.REQUEST
-        self._pipe.send_bytes(NUMBER.pack(message, self._last) + pack_request(client, writes))
+        self._channel.send(message, pack_request(client, writes), self._last)
+        self._sent()
         return later
 
-    def settle(self, message: bytes) -> None:
+    def settle(self, number: int, data: bytes) -> None:
         """Take the outcomes of a request."""
-        _, number = NUMBER.unpack_from(message)
-        self._waiting.pop(number).settle(unpack_outcomes(message[NUMBER.size :]))
+        self._waiting.pop(number).settle(unpack_outcomes(data))
 
 
 class Teller:
     """Tells the log of the run what was refused, but not more than it can bear.
 
     Args:
-        pipe: to the run.
+        channel: to the run.
         now: returns seconds of some clock.
     """
 
-    def __init__(self, pipe: Pipe, now: Callable[[], float]) -> None:
-        self._pipe = pipe
+    def __init__(self, channel: Channel, now: Callable[[], float]) -> None:
+        self._channel = channel
         self._now = now
         self._second = -1
         self._told = self._left_out = 0
@@ -71,4 +84,4 @@ class Teller:
         self._tell(who, why)
 
     def _tell(self, who: str, why: str) -> None:
-        self._pipe.send_bytes(head(Message.TOLD) + f"{who}\0{why}".encode())
+        self._channel.send(Message.TOLD, f"{who}\0{why}".encode())

@@ -54,7 +54,7 @@ class Contents:
 
     Attributes:
         tree: symbols and types.
-        size: bytes of the shared memory.
+        size: bytes of the image.
         nc: of the ports of the NC; None without axes.
     """
 

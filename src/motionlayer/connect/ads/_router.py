@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from motionlayer.connect.ads._client import Client, Limits
-from motionlayer.connect.ads._codes import AdsError, Code
-from motionlayer.connect.ads._frame import Address, Packet, net_id
+from motionlayer.connect.ads._codes import Code
+from motionlayer.connect.ads._frame import Address, net_id
 from motionlayer.connect.ads._notify import Notifications
-from motionlayer.connect.ads._service import Outbox, Service
+from motionlayer.connect.ads._service import Image, Outbox, Service
 from motionlayer.connect.ads._symbols import SymbolService
 
 LOOPBACK: Final = net_id("127.0.0.1.1.1")
@@ -46,6 +46,7 @@ class Router:
     Attributes:
         net_id: of the server.
         services: by AMS port.
+        image: what they read.
         outbox: the way into the run.
         notifications: of all clients.
         tell: takes what is refused: who, and why.
@@ -55,6 +56,7 @@ class Router:
 
     net_id: bytes
     services: Mapping[int, Service]
+    image: Image
     outbox: Outbox
     notifications: Notifications
     tell: Callable[[str, str], None]
@@ -62,23 +64,20 @@ class Router:
     limits: Limits = field(default_factory=Limits)
     _ports: set[int] = field(default_factory=set)
 
-    def error_of(self, packet: Packet) -> int:
-        """Return the AMS error of a packet that reaches nobody, else 0."""
-        if packet.target.net_id not in (self.net_id, LOOPBACK):
+    def error_of(self, target: Address) -> Code:
+        """Return the AMS error of a packet whose target is nobody, else 0."""
+        if target.net_id not in (self.net_id, LOOPBACK):
             return Code.TARGET_MACHINE_NOT_FOUND
-        return Code.NO_ERROR if packet.target.port in self.services else Code.TARGET_PORT_NOT_FOUND
+        return Code.NO_ERROR if target.port in self.services else Code.TARGET_PORT_NOT_FOUND
 
     def admit(self, address: Address, host: str) -> Client | None:
         """Return a new client; None if it may not ask, which is told."""
         if self.access.net_ids and address.net_id not in self.access.net_ids:
             self.tell(f"{address} at {host}", "its NetId is not among those that may ask")
             return None
-        return Client(address, host, address.net_id in self.access.read_only, self.limits)
-
-    def told(self, client: Client, refused: AdsError) -> None:
-        """Tell a refusal that concerns access; others are between client and server."""
-        if refused.code in (Code.NOT_PERMITTED, Code.ACCESS_DENIED, Code.NO_MORE_HANDLES, Code.MAILBOX_FULL):
-            self.tell(str(client), str(refused))
+        who = f"{address} at {host}"
+        read_only = address.net_id in self.access.read_only
+        return Client(address, host, read_only, self.limits, lambda why: self.tell(who, why))
 
     def forget(self, client: Client) -> None:
         """Release what a client held."""

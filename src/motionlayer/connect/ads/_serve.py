@@ -1,4 +1,4 @@
-"""The server itself: an event loop in a process or thread that shares an image and a pipe with the run, no more."""
+"""The server itself: an event loop in a process or thread that shares an image and a socket with the run, no more."""
 
 import asyncio
 import contextlib
@@ -8,18 +8,21 @@ import pickle
 import socket
 import sys
 import time
-from multiprocessing.connection import Connection as Pipe
 from typing import Final
 
+import uvloop
+
+from motionlayer.connect.ads._channel import Channel, Received
 from motionlayer.connect.ads._image import SharedImage
+from motionlayer.connect.ads._memory import Shared
 from motionlayer.connect.ads._notify import Notifications
-from motionlayer.connect.ads._outbox import PipeOutbox, Teller
+from motionlayer.connect.ads._outbox import ChannelOutbox, Teller
 from motionlayer.connect.ads._plan import Contents, Plan
 from motionlayer.connect.ads._ports import services
 from motionlayer.connect.ads._router import Router
 from motionlayer.connect.ads._stream import Stream
-from motionlayer.connect.ads._wire import Message, head
-from motionlayer.runtime import Published
+from motionlayer.connect.ads._watches import Lookout, Watches
+from motionlayer.connect.ads._wire import Message
 
 LOOK: Final = 0.001
 """Seconds between two looks at the image while there are notifications, at least."""
@@ -30,6 +33,9 @@ REST: Final = 0.05
 BACKLOG: Final = 64
 """Connections that wait until all symbols are known."""
 
+PATIENCE: Final = 3600.0
+"""Seconds between two looks whether the run is there still, while it has not begun."""
+
 
 class Server:
     """A server in its own event loop.
@@ -37,23 +43,27 @@ class Server:
     Args:
         plan: whom it serves.
         contents: what it serves.
-        pipe: to the run.
-        published: the image.
+        channel: to the run.
+        shared: the image.
     """
 
-    def __init__(self, plan: Plan, contents: Contents, pipe: Pipe, published: Published) -> None:
-        self._pipe = pipe
-        self._image = SharedImage(published)
-        self._outbox = PipeOutbox(pipe)
-        self._notifications = Notifications(plan.cycle_ns, plan.limits.all_notifications)
+    def __init__(self, plan: Plan, contents: Contents, channel: Channel, shared: Shared) -> None:
+        self._channel = channel
+        channel.on_send = shared.ring
+        self._image = SharedImage(shared.published)
+        self._outbox = ChannelOutbox(channel, self._posted)
+        watches = Watches(shared.history, self._image.size)
+        self._notifications = Notifications(plan.cycle_ns, plan.limits.all_notifications, watches)
         self._period = max(LOOK, plan.cycle_ns * 1e-9)
-        self._seen = -1
+        tell = Teller(channel, time.monotonic)
+        self._lookout = Lookout(self._image, shared.history, self._notifications, tell)
         self._router = Router(
             plan.net_id,
             services(contents, self._image),
+            self._image,
             self._outbox,
             self._notifications,
-            Teller(pipe, time.monotonic),
+            tell,
             plan.access,
             plan.limits,
         )
@@ -63,13 +73,15 @@ class Server:
     async def run(self, listening: socket.socket) -> None:
         """Serve until the run says stop."""
         loop = asyncio.get_running_loop()
-        stop = loop.create_future()
+        self._stop = loop.create_future()
+        self._loop = loop
         server = await loop.create_server(lambda: Stream(self._router, self._streams), sock=listening)
-        loop.add_reader(self._pipe.fileno(), self._heard, stop)
+        loop.add_reader(self._channel.fileno(), self._heard)
         self._look()
         async with server, self._network():
-            await stop
-        loop.remove_reader(self._pipe.fileno())
+            await self._stop
+        loop.remove_reader(self._channel.fileno())
+        loop.remove_writer(self._channel.fileno())
         for stream in tuple(self._streams):
             stream.close()
 
@@ -83,27 +95,33 @@ class Server:
 
     def _look(self) -> None:
         """Send what is due, and look again a little later."""
-        notifications, image = self._notifications, self._image
-        asyncio.get_running_loop().call_later(self._period if len(notifications) else REST, self._look)
-        if not len(notifications):
-            return
-        count = image.count
-        if (count != self._seen or notifications.beginning) and notifications.due(image.tick):
-            self._seen = count
-            notifications.look(*image.snapshot())
+        self._loop.call_later(self._period if len(self._notifications) else REST, self._look)
+        self._lookout.look()
 
-    def _heard(self, stop: "asyncio.Future[None]") -> None:
+    def _posted(self) -> None:
+        """Care for what the run has not taken yet."""
+        if self._channel.unsent:
+            self._loop.add_writer(self._channel.fileno(), self._flush)
+
+    def _flush(self) -> None:
+        self._channel.flush()
+        if not self._channel.unsent:
+            self._loop.remove_writer(self._channel.fileno())
+
+    def _heard(self) -> None:
         """Take what the run says."""
-        with contextlib.suppress(EOFError, OSError):  # the run is gone
-            while self._pipe.poll():
-                message = self._pipe.recv_bytes()
-                if message[0] == Message.STOP:
-                    break
-                self._outbox.settle(message)
-            else:
-                return
-        if not stop.done():
-            stop.set_result(None)
+        try:
+            for message, number, data in self._channel.receive():
+                if message == Message.OUTCOMES:
+                    self._outbox.settle(number, data)
+                elif message == Message.STOP:
+                    self._end()
+        except EOFError:  # the run is gone
+            self._end()
+
+    def _end(self) -> None:
+        if not self._stop.done():
+            self._stop.set_result(None)
 
 
 def listen(host: str, port: int) -> socket.socket:
@@ -124,39 +142,48 @@ def listen(host: str, port: int) -> socket.socket:
     return listening
 
 
-def serve(pipe: Pipe, memory: int) -> None:
-    """Serve until the pipe says stop; the main function of a server process or thread.
+def serve(end: socket.socket, memory: int) -> None:
+    """Serve until the run says stop; the main function of a server process or thread.
 
     Args:
-        pipe: to the run, which says what to serve.
+        end: of the channel to the run, which says what to serve.
         memory: file descriptor of the shared memory.
     """
-    plan: Plan = pickle.loads(pipe.recv_bytes()[1:])  # noqa: S301 - it comes from the run that has started us
-    try:
-        listening = listen(plan.host, plan.port)
-    except OSError as error:
-        pipe.send_bytes(head(Message.PORT) + f"{plan.host}:{plan.port}: {error.strerror}".encode())
-        return
-    with listening, contextlib.suppress(EOFError, ConnectionError):  # the run has ended before it began
-        pipe.send_bytes(head(Message.PORT) + str(listening.getsockname()[1]).encode())
-        message = pipe.recv_bytes()
-        if message[0] == Message.CONTENTS:
-            contents: Contents = pickle.loads(message[1:])  # noqa: S301
-            _serve(plan, contents, pipe, memory, listening)
-
-
-def _serve(plan: Plan, contents: Contents, pipe: Pipe, memory: int, listening: socket.socket) -> None:
-    with mmap.mmap(memory, contents.size) as block:
-        published = Published(memoryview(block), new=False)
+    channel = Channel(end)
+    with contextlib.closing(channel), contextlib.suppress(EOFError):  # the run may end before it has begun
+        plan: Plan = pickle.loads(_told(channel).data)  # noqa: S301 - it comes from the run that has started us
         try:
-            asyncio.run(Server(plan, contents, pipe, published).run(listening))
+            listening = listen(plan.host, plan.port)
+        except OSError as error:
+            channel.send(Message.PORT, f"{plan.host}:{plan.port}: {error.strerror}".encode())
+            return
+        with listening:
+            channel.send(Message.PORT, str(listening.getsockname()[1]).encode())
+            message = _told(channel)
+            if message.message == Message.CONTENTS:
+                contents: Contents = pickle.loads(message.data)  # noqa: S301
+                _serve(plan, contents, channel, memory, listening)
+
+
+def _told(channel: Channel) -> Received:
+    """Return the next message of the run, which may take any time."""
+    while True:
+        with contextlib.suppress(TimeoutError):
+            return channel.wait(PATIENCE)
+
+
+def _serve(plan: Plan, contents: Contents, channel: Channel, memory: int, listening: socket.socket) -> None:
+    with mmap.mmap(memory, Shared.size_of(contents.size, plan.cycle_ns)) as block:
+        shared = Shared(memoryview(block), contents.size, plan.cycle_ns, new=False)
+        try:
+            with asyncio.Runner(loop_factory=uvloop.new_event_loop) as runner:
+                runner.run(Server(plan, contents, channel, shared).run(listening))
         finally:
-            published.release()
+            shared.release()
 
 
 def main() -> None:
-    """Serve in a process of its own; its arguments are the file descriptors of pipe and memory."""
-    pipe, memory = (int(argument) for argument in sys.argv[1:3])
-    with Pipe(pipe) as connected:
-        serve(connected, memory)
+    """Serve in a process of its own; its arguments are the file descriptors of channel and memory."""
+    channel, memory = (int(argument) for argument in sys.argv[1:3])
+    serve(socket.socket(fileno=channel), memory)
     os.close(memory)

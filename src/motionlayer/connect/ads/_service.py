@@ -7,6 +7,7 @@ the run together, are applied in one tick, and are answered when that tick has b
 import enum
 import struct
 from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Generic, NamedTuple, Protocol, TypeVar
 
 from motionlayer.connect.ads._codes import AdsError, Code
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     from motionlayer.connect.ads._client import Client
 
 T = TypeVar("T")
+
+Bytes = bytes | memoryview
 
 
 class State(enum.IntEnum):
@@ -118,6 +121,9 @@ class Image(Protocol):
     def status(self) -> Status:
         """Return how the run is."""
 
+    def together(self) -> AbstractContextManager[None]:
+        """Let all that is read meanwhile be of the same tick."""
+
 
 DEVICE_INFO = struct.Struct("<BBH16s")
 
@@ -128,10 +134,12 @@ class Service:
     Attributes:
         name: of the device, up to 16 characters.
         version: major, minor, build.
+        age: grows whenever an address may have got another meaning.
     """
 
     name = "motionlayer"
     version = (3, 1, 4026)
+    age = 0
 
     def device_info(self) -> bytes:
         """Return version and name."""
@@ -156,6 +164,10 @@ class Service:
             AdsError: refused.
         """
         raise AdsError(Code.INVALID_GROUP, f"nothing to read in 0x{group:X}:0x{offset:X} ({length} bytes, {client})")
+
+    def locate(self, _group: int, _offset: int, _length: int) -> tuple[int, int] | None:
+        """Return first byte and length of what `read` finds in the image; None where it is not there in one piece."""
+        return None
 
     def write(self, client: "Client", group: int, offset: int, data: bytes) -> Write | None:
         """Take bytes; return what the run is asked for, None where it is done.
@@ -193,7 +205,6 @@ class Watched(NamedTuple):
         start: first byte.
         length: in bytes.
         bit: number of the one bit in the byte `start`, else None.
-        fixed: a value that is not in the image; else None.
         pieces: what the value is put together from, each by its place in the value, first byte and length; the rest of
             the value is 0. Empty: it lies in the image as it is.
     """
@@ -201,21 +212,25 @@ class Watched(NamedTuple):
     start: int
     length: int
     bit: int | None = None
-    fixed: bytes | None = None
     pieces: tuple[tuple[int, int, int], ...] = ()
 
-    def sample(self, image: bytes) -> bytes:
+    @property
+    def spans(self) -> tuple[tuple[int, int], ...]:
+        """First byte and length of all that it samples."""
+        if self.pieces:
+            return tuple((start, length) for _, start, length in self.pieces)
+        return ((self.start, self.length),)
+
+    def sample(self, image: Bytes) -> bytes:
         """Return the value in a snapshot."""
-        if self.fixed is not None:
-            return self.fixed
         if self.bit is not None:
             return b"\x01" if image[self.start] >> self.bit & 1 else b"\x00"
         if self.pieces:
             return gathered(self.length, self.pieces, image)
-        return image[self.start : self.start + self.length]
+        return bytes(image[self.start : self.start + self.length])
 
 
-def gathered(length: int, pieces: Sequence[tuple[int, int, int]], image: bytes) -> bytes:
+def gathered(length: int, pieces: Sequence[tuple[int, int, int]], image: Bytes) -> bytes:
     """Return a value of a length, put together from pieces: place in the value, first byte in the image, length."""
     value = bytearray(length)
     for at, start, size in pieces:

@@ -2,7 +2,7 @@
 
 import asyncio
 import socket
-from typing import Final
+from typing import Final, cast
 
 from motionlayer.connect.ads._connection import Connection
 from motionlayer.connect.ads._frame import FrameError
@@ -35,8 +35,12 @@ class Stream(asyncio.Protocol):
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Take the connection, or close it at once."""
-        assert isinstance(transport, asyncio.Transport)
-        self._host = transport.get_extra_info("peername")[0]
+        transport = cast("asyncio.Transport", transport)  # those of uvloop are none by their type
+        peer = transport.get_extra_info("peername")
+        if peer is None:  # whoever it was has reset the connection before it was taken
+            transport.abort()
+            return
+        self._host = peer[0]
         full = len(self._streams) >= self._router.limits.connections
         if full or not self._router.access.admits(self._host):
             self._router.tell(self._host, "too many connections" if full else "its address is not allowed to connect")

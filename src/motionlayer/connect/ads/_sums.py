@@ -1,4 +1,4 @@
-"""Sum commands: many requests in one (ads 6).
+"""Sum commands that write or ask: many requests in one (ads 6).
 
 The outer result is 0 even where single ones fail. The writes of one sum are asked of the run together, so it applies
 them in one tick; until their outcomes are there the answer waits.
@@ -10,16 +10,8 @@ from typing import Final
 
 from motionlayer.connect.ads._client import Client
 from motionlayer.connect.ads._codes import AdsError, Code
+from motionlayer.connect.ads._numbers import SUMS
 from motionlayer.connect.ads._service import Later, Outbox, Outcome, Service, Write
-
-READ: Final = 0xF080
-WRITE: Final = 0xF081
-READ_WRITE: Final = 0xF082
-READ_EX: Final = 0xF083
-READ_EX_2: Final = 0xF084
-ADD_NOTIFICATIONS: Final = 0xF085
-DELETE_NOTIFICATIONS: Final = 0xF086
-GROUPS: Final = range(READ, DELETE_NOTIFICATIONS + 1)
 
 MAX_REQUESTS: Final = 10_000
 MAX_ANSWER: Final = 4 * 1024 * 1024 - 64
@@ -34,7 +26,12 @@ _RESULT: Final = struct.Struct("<II")
 Answer = bytes | Later[bytes]
 
 
-def _requests(shape: struct.Struct, count: int, data: bytes) -> Iterator[tuple[int, ...]]:
+def requests(shape: struct.Struct, count: int, data: bytes) -> Iterator[tuple[int, ...]]:
+    """Return the requests of a sum, taken apart.
+
+    Raises:
+        AdsError: there are too many (0x70B), or too few bytes (0x705).
+    """
     if count > MAX_REQUESTS:
         raise AdsError(Code.INVALID_PARAMETER, f"{count} requests in a sum, at most {MAX_REQUESTS}")
     if len(data) < count * shape.size:
@@ -42,38 +39,7 @@ def _requests(shape: struct.Struct, count: int, data: bytes) -> Iterator[tuple[i
     return shape.iter_unpack(data[: count * shape.size])
 
 
-def read(service: Service, client: Client, group: int, count: int, data: bytes) -> bytes:
-    """Answer F080, F083 and F084; a request that fails occupies its bytes all the same, except in F084."""
-    bare = group == READ and count == 0  # then the values alone are the answer
-    requests = list(_requests(_ADDRESS, len(data) // _ADDRESS.size if bare else count, data))
-    padded, room = group != READ_EX_2, _Room()
-    if padded:
-        room.take(sum(length for _, _, length in requests))
-    codes, values = [], []
-    for request in requests:
-        code, value = _one(service, client, request)
-        codes.append(code)
-        values.append(value)
-        if not padded:
-            room.take(len(value))
-    lengths = [len(value) for value in values]
-    if padded:
-        values = [value.ljust(request[2], b"\0") for value, request in zip(values, requests, strict=True)]
-    if group != READ:
-        codes = [number for result in zip(codes, lengths, strict=True) for number in result]
-    return b"".join(values if bare else [struct.pack(f"<{len(codes)}I", *codes), *values])
-
-
-def _one(service: Service, client: Client, request: tuple[int, ...]) -> tuple[int, bytes]:
-    """Return code and bytes of a value."""
-    group, offset, length = request
-    try:
-        return Code.NO_ERROR, service.read(client, group, offset, length)
-    except AdsError as error:
-        return error.code, b""
-
-
-class _Room:
+class Room:
     """Bytes that are left in an answer."""
 
     def __init__(self) -> None:
@@ -93,16 +59,19 @@ class _Room:
 class _Batch:
     """Outcomes of the requests of a sum, some of which the run will tell."""
 
-    def __init__(self, finish: Callable[[list[Outcome]], bytes]) -> None:
+    def __init__(self, client: Client, finish: Callable[[list[Outcome]], bytes]) -> None:
+        self._client = client
         self._finish = finish
-        self._room = _Room()
+        self._room = Room()
         self._outcomes: list[Outcome | None] = []
         self._writes: list[Write] = []
 
     def add(self, ask: Callable[[], bytes | Write | None]) -> None:
+        """Add what one request is answered with, or what the run is asked for."""
         try:
             result = ask()
         except AdsError as error:
+            self._client.refused(error)
             self._outcomes.append(Outcome(error.code))
             return
         if isinstance(result, Write):
@@ -112,11 +81,12 @@ class _Batch:
             self._room.take(len(result or b""))
             self._outcomes.append(Outcome(Code.NO_ERROR, result or b""))
 
-    def answer(self, outbox: Outbox, client: Client) -> Answer:
+    def answer(self, outbox: Outbox) -> Answer:
+        """Return the answer; it comes later where the run has been asked for something, all of it together."""
         if not self._writes:
             return self._complete([])
         later: Later[bytes] = Later()
-        outbox.post(self._writes, str(client)).then(lambda told: later.settle(self._complete(told)))
+        outbox.post(self._writes, self._client.name).then(lambda told: later.settle(self._complete(told)))
         return later
 
     def _complete(self, told: list[Outcome]) -> bytes:
@@ -126,36 +96,36 @@ class _Batch:
 
 def write(service: Service, client: Client, outbox: Outbox, count: int, data: bytes) -> Answer:
     """Answer F081."""
-    requests = list(_requests(_ADDRESS, count, data))
-    batch = _Batch(lambda outcomes: b"".join(_U32.pack(one.code) for one in outcomes))
+    asked = list(requests(_ADDRESS, count, data))
+    batch = _Batch(client, lambda outcomes: b"".join(_U32.pack(one.code) for one in outcomes))
     at = count * _ADDRESS.size
-    if sum(request[2] for request in requests) != len(data) - at:
+    if sum(request[2] for request in asked) != len(data) - at:
         raise AdsError(Code.INVALID_SIZE, f"{len(data) - at} bytes to write, not what the requests say")
-    for group, offset, length in requests:
+    for group, offset, length in asked:
         part = data[at : at + length]
         at += length
         batch.add(lambda group=group, offset=offset, part=part: service.write(client, group, offset, part))  # type: ignore[misc]
-    return batch.answer(outbox, client)
+    return batch.answer(outbox)
 
 
 def read_write(service: Service, client: Client, outbox: Outbox, count: int, data: bytes) -> Answer:
     """Answer F082."""
-    requests = list(_requests(_BOTH, count, data))
+    asked = list(requests(_BOTH, count, data))
     at = count * _BOTH.size
-    if sum(request[3] for request in requests) != len(data) - at:
+    if sum(request[3] for request in asked) != len(data) - at:
         raise AdsError(Code.INVALID_SIZE, f"{len(data) - at} bytes to write, not what the requests say")
-    batch = _Batch(_results)
-    for group, offset, length, written in requests:
+    batch = _Batch(client, _results)
+    for group, offset, length, written in asked:
         part = data[at : at + written]
         at += written
 
         def ask(group: int = group, offset: int = offset, length: int = length, part: bytes = part) -> bytes | Write:
-            if group in GROUPS:
+            if group in SUMS:
                 raise AdsError(Code.INVALID_GROUP, "a sum in a sum")
             return service.read_write(client, group, offset, length, part)
 
         batch.add(ask)
-    return batch.answer(outbox, client)
+    return batch.answer(outbox)
 
 
 def _results(outcomes: list[Outcome]) -> bytes:
@@ -169,4 +139,4 @@ def pieces(data: bytes, count: int, size: int) -> list[bytes]:
     Raises:
         AdsError: there are too many, or too few bytes.
     """
-    return [raw[0] for raw in _requests(struct.Struct(f"{size}s"), count, data)]  # type: ignore[misc]
+    return [raw[0] for raw in requests(struct.Struct(f"{size}s"), count, data)]  # type: ignore[misc]

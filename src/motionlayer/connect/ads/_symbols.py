@@ -1,22 +1,40 @@
 """`SymbolService`: the PLC port, with symbols, handles and types (ads 4 to 6)."""
 
 import bisect
+import functools
 import struct
 from typing import TYPE_CHECKING, Final
 
+from motionlayer.connect.ads._catalogue import Catalogue
 from motionlayer.connect.ads._client import Client
 from motionlayer.connect.ads._codes import AdsError, Code
 from motionlayer.connect.ads._entries import (
     CODE_PAGE,
-    DATA_AREA,
-    DATA_BITS,
     address,
     encoded,
     symbol_entry,
     texts,
-    type_entry,
 )
-from motionlayer.connect.ads._image import STATES
+from motionlayer.connect.ads._handles import Handles
+from motionlayer.connect.ads._image import BEGINNINGS, STATES
+from motionlayer.connect.ads._numbers import (
+    DATA_AREA,
+    DATA_BITS,
+    DATA_SIZE,
+    DEVICE_DATA,
+    ENTRY_BY_NAME,
+    HANDLE_BY_NAME,
+    INFO_BY_NAME,
+    RELEASE_HANDLE,
+    TYPE_BY_NAME,
+    TYPE_UPLOAD,
+    UPLOAD,
+    UPLOAD_INFO,
+    UPLOAD_INFO_LONG,
+    VALUE_BY_HANDLE,
+    VALUE_BY_NAME,
+    VERSION,
+)
 from motionlayer.connect.ads._rpc import call
 from motionlayer.connect.ads._service import Image, Kind, Service, Watched, Write
 from motionlayer.connect.ads._system import controlled
@@ -25,25 +43,14 @@ from motionlayer.connect.ads._tree import METHOD, MethodPlace, Place, Tree
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-HANDLE_BY_NAME: Final = 0xF003
-VALUE_BY_NAME: Final = 0xF004
-VALUE_BY_HANDLE: Final = 0xF005
-RELEASE_HANDLE: Final = 0xF006
-INFO_BY_NAME: Final = 0xF007
-VERSION: Final = 0xF008
-ENTRY_BY_NAME: Final = 0xF009
-UPLOAD: Final = 0xF00B
-UPLOAD_INFO: Final = 0xF00C
-TYPE_UPLOAD: Final = 0xF00E
-UPLOAD_INFO_LONG: Final = 0xF00F
-TYPE_BY_NAME: Final = 0xF011
-DEVICE_DATA: Final = 0xF100
-DATA_SIZE: Final = 0x4045
+NAMES: Final = 4096
+LONGEST: Final = 255
+"""Names that are found at once when they are asked for again, and bytes of one, at most."""
 
+_METHOD: Final = METHOD.encode()
 _U32: Final = struct.Struct("<I")
 _INFO: Final = struct.Struct("<3I")
 _LONG: Final = struct.Struct("<3IH")
-_BASE_TYPES_AND_64_BIT: Final = 0x1 | 0x2
 
 
 class SymbolService(Service):
@@ -52,31 +59,26 @@ class SymbolService(Service):
     Args:
         tree: all symbols and types.
         image: their published bytes.
-        version: of the symbols, 0 to 255.
     """
 
-    def __init__(self, tree: Tree, image: Image, version: int = 1) -> None:
+    def __init__(self, tree: Tree, image: Image) -> None:
         self._tree = tree
         self._image = image
         self._size = size = image.size
-        self._version = bytes((version & 0xFF,))
         self._starts = [root.offset for root in tree.roots]
-        self._handles: dict[int, Place | MethodPlace] = {}
-        self._last = 0
-        types = {node.name: node for node in tree.types}
-        self._types = {name.upper(): type_entry(node, types) for name, node in types.items()}
-        self._all_types = b"".join(self._types.values())
-        self._all_symbols = b"".join(symbol_entry(tree.find(root.name)) for root in tree.roots)
+        self._handles = Handles()
+        self._find = functools.lru_cache(NAMES)(lambda raw: tree.find(_name(raw)))
+        self._catalogue = catalogue = Catalogue(tree)
         self._readers: dict[int, Callable[[Client, int, int], bytes]] = {
             DATA_AREA: self._read_bytes,
             DATA_BITS: self._read_bit,
             DATA_SIZE: lambda _client, _offset, _length: _U32.pack(size),
             VALUE_BY_HANDLE: self._read_handle,
-            VERSION: lambda _client, _offset, _length: self._version,
-            UPLOAD: lambda _client, _offset, _length: self._all_symbols,
-            UPLOAD_INFO: lambda _client, _offset, _length: self._upload_info(2),
-            TYPE_UPLOAD: lambda _client, _offset, _length: self._all_types,
-            UPLOAD_INFO_LONG: lambda _client, _offset, length: self._upload_info(16 if length >= 64 else 6),
+            VERSION: lambda _client, _offset, _length: bytes((image.status().beginnings & 0xFF,)),
+            UPLOAD: lambda _client, _offset, _length: catalogue.symbols,
+            UPLOAD_INFO: lambda _client, _offset, _length: catalogue.info(2),
+            TYPE_UPLOAD: lambda _client, _offset, _length: catalogue.types,
+            UPLOAD_INFO_LONG: lambda _client, _offset, length: catalogue.info(16 if length >= 64 else 6),
             DEVICE_DATA: self._device_data,
         }
         self._askers: dict[int, Callable[[Client, Place, int], bytes]] = {
@@ -100,11 +102,11 @@ class SymbolService(Service):
     def write(self, client: Client, group: int, offset: int, data: bytes) -> Write | None:
         """Write bytes or release a handle; the arguments are those of `Service.write`."""
         if group == RELEASE_HANDLE:
-            self._release(client, data)
+            self._handles.release(client, data)
             return None
         client.require_writing()
         if group == VALUE_BY_HANDLE:
-            return self._write_place(self._place(offset), data)
+            return self._write_place(self._handles.value(offset), data)
         if group == DATA_AREA:
             self._require_writable(offset, len(data))
             return Write(Kind.BYTES, offset, data)
@@ -116,20 +118,20 @@ class SymbolService(Service):
     def read_write(self, client: Client, group: int, offset: int, length: int, data: bytes) -> bytes | Write:
         """Answer by name; the arguments are those of `Service.read_write`."""
         if group == TYPE_BY_NAME:
-            return self._type_by_name(_name(data))[:length]
+            return self._catalogue.type_named(_name(data))[:length]
         if group == VALUE_BY_HANDLE:
             return self._call(client, offset, length, data)
         asker = self._askers.get(group)
         if asker is None:
             return super().read_write(client, group, offset, length, data)
-        if group == HANDLE_BY_NAME and METHOD.encode() in data:
+        if group == HANDLE_BY_NAME and _METHOD in data:
             return self._handle_by_name(client, self._tree.find_method(_name(data)), length)[:length]
-        return asker(client, self._tree.find(_name(data)), length)[:length]
+        return asker(client, self._place_of(data), length)[:length]
 
     def watch(self, client: Client, group: int, offset: int, length: int) -> Watched:
         """Return what a notification samples; the arguments are those of `Service.watch`."""
         if group == VALUE_BY_HANDLE:
-            place = self._place(offset)
+            place = self._handles.value(offset)
             _require_size(length, place)
             return Watched(place.offset, length, place.bit)
         if group == DATA_AREA:
@@ -139,7 +141,7 @@ class SymbolService(Service):
             self._check(offset // 8, 1)
             return Watched(offset // 8, 1, offset % 8)
         if group == VERSION:
-            return Watched(0, length, fixed=self.read(client, group, offset, length))
+            return Watched(self._size + BEGINNINGS, min(length, 1))
         if group == DEVICE_DATA:
             self.read(client, group, offset, length)
             return Watched(self._size + STATES + offset, min(length, 4 - offset))
@@ -147,15 +149,29 @@ class SymbolService(Service):
 
     def forget(self, client: Client) -> None:
         """Release what a client held."""
-        for handle in client.handles:
-            self._handles.pop(handle, None)
-        client.handles.clear()
+        self._handles.forget(client)
+
+    @property
+    def age(self) -> int:  # type: ignore[override]
+        """Grows when handles are released."""
+        return self._handles.age
+
+    def locate(self, group: int, offset: int, length: int) -> tuple[int, int] | None:
+        """Return where in the image a value lies; the arguments are those of `Service.locate`."""
+        if group == DATA_AREA and offset + length < self._size:
+            return offset, length
+        place = self._handles.values.get(offset) if group == VALUE_BY_HANDLE else None
+        if place is None or place.bit is not None or length > place.type.size:
+            return None
+        return place.offset, length
+
+    def _place_of(self, raw: bytes) -> Place:
+        """Return what has a name; those that clients ask for are found at once when they come again."""
+        return self._find(raw) if len(raw) <= LONGEST else self._tree.find(_name(raw))
 
     def _call(self, client: Client, handle: int, length: int, data: bytes) -> Write:
         """Return what the run is asked for to call a method."""
-        method = self._handles.get(handle)
-        if not isinstance(method, MethodPlace):
-            raise AdsError(Code.SYMBOL_NOT_FOUND, f"no method has handle {handle}")
+        method = self._handles.method(handle)
         client.require_writing()
         if len(data) != method.sent or length < method.returned:
             sizes = f"{len(data)} bytes for {method.sent} of inputs, {length} for {method.returned} of results"
@@ -163,7 +179,9 @@ class SymbolService(Service):
         return call(method, data)
 
     def _handle_by_name(self, client: Client, what: Place | MethodPlace, length: int) -> bytes:
-        handle = self._take(client, what)
+        handle = self._handles.take(client, what)
+        if length <= _U32.size:
+            return _U32.pack(handle)
         if isinstance(what, MethodPlace):
             size, adst, kind = what.returned, 0, b""
         else:
@@ -171,37 +189,8 @@ class SymbolService(Service):
         long = _LONG.pack(handle, size, adst, len(kind)) + texts(kind)
         return long if length >= len(long) else _U32.pack(handle)
 
-    def _take(self, client: Client, what: Place | MethodPlace) -> int:
-        """Return a new handle.
-
-        Raises:
-            AdsError: there are too many (0x716).
-        """
-        if len(client.handles) >= client.limits.handles or len(self._handles) >= client.limits.all_handles:
-            raise AdsError(Code.NO_MORE_HANDLES, f"{client} holds {len(client.handles)} handles")
-        self._last = self._last % 0xFFFF_FFFE + 1
-        while self._last in self._handles:
-            self._last = self._last % 0xFFFF_FFFE + 1
-        self._handles[self._last] = what
-        client.handles.add(self._last)
-        return self._last
-
-    def _release(self, client: Client, data: bytes) -> None:
-        if len(data) != _U32.size:
-            raise AdsError(Code.INVALID_SIZE, f"{len(data)} bytes, a handle has 4")
-        (handle,) = _U32.unpack(data)
-        if self._handles.pop(handle, None) is None:
-            raise AdsError(Code.SYMBOL_NOT_FOUND, f"no handle {handle}")
-        client.handles.discard(handle)
-
-    def _place(self, handle: int) -> Place:
-        place = self._handles.get(handle)
-        if not isinstance(place, Place):
-            raise AdsError(Code.SYMBOL_NOT_FOUND, f"no value has handle {handle}")
-        return place
-
     def _read_handle(self, _client: Client, handle: int, length: int) -> bytes:
-        place = self._place(handle)
+        place = self._handles.value(handle)
         if place.bit is not None:
             return self._value(place)
         return self._image.read(place.offset, min(length, place.type.size))
@@ -245,17 +234,6 @@ class SymbolService(Service):
         if offset not in (0, 2):
             raise AdsError(Code.INVALID_OFFSET, f"0xF100:{offset}")
         return struct.pack("<HH", *self.state())[offset:]
-
-    def _upload_info(self, fields: int) -> bytes:
-        counts = [len(self._tree.roots), len(self._all_symbols), len(self._types), len(self._all_types)]
-        rest = [0, 0, 0, 1252, _BASE_TYPES_AND_64_BIT, 0, 0, 0, 0, 0, 0, 0]
-        return struct.pack(f"<{fields}I", *[*counts, *rest][:fields])
-
-    def _type_by_name(self, name: str) -> bytes:
-        entry = self._types.get(name.upper())
-        if entry is None:
-            raise AdsError(Code.SYMBOL_NOT_FOUND, f"no type {name}")
-        return entry
 
     def state(self) -> tuple[int, int]:
         """Return whether the run goes on or is held up."""

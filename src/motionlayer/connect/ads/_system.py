@@ -9,7 +9,7 @@ RUN, START     goes on          RUN, RUN
 STOP           is held up       STOP on the PLC port; the system stays in RUN
 CONFIG         is held up       STOP; the system is in CONFIG
 RECONFIG       the same
-RESET          begins anew      RUN, RUN, and another number of restarts
+RESET          begins anew      RUN, RUN, another restart index and another symbol version
 ============== ================ =======================================================
 """
 
@@ -66,6 +66,6 @@ class SystemService(Service):
         if group != SYSTEM_STATUS or offset != 0:
             return super().read(client, group, offset, length)
         now, (major, minor, build) = self._image.status(), self.version
-        restarts = now.restarts & 0xFFFF
-        status = _STATUS.pack(now.system, now.system_device, restarts, major, minor, build, PLATFORM, OS_TYPE, 0)
+        index = now.beginnings & 0xFFFF
+        status = _STATUS.pack(now.system, now.system_device, index, major, minor, build, PLATFORM, OS_TYPE, 0)
         return status[:length]

@@ -1,7 +1,7 @@
 """What goes between the server and the run: requests and outcomes as bytes.
 
 A request is what the mailbox records and a replay feeds again: the name of the client, then its writes. Between the two
-processes every message begins with its `Message`; behind that of a request stands a number, which the outcomes repeat.
+processes goes a `Message`; that of a request has a number, which the outcomes repeat.
 """
 
 import enum
@@ -10,9 +10,6 @@ from collections.abc import Sequence
 from typing import Final
 
 from motionlayer.connect.ads._service import Kind, Outcome, Write
-
-NUMBER: Final = struct.Struct("<BI")
-"""A message, and the number of the request."""
 
 _NAME: Final = struct.Struct("<H")
 _WRITE: Final = struct.Struct("<BII")
@@ -31,7 +28,7 @@ class Message(enum.IntEnum):
     REQUEST  the run       number and request, for the next tick
     CONTROL  the run       number and request, which goes past the ticks
     OUTCOMES the server    number and outcomes
-    TOLD     the run       who was refused and why, with a zero between
+    TOLD     the run       who is told of in the log and what, with a zero between
     STOP     the server    nothing
     ======== ============= =======================================================
     """
@@ -44,11 +41,6 @@ class Message(enum.IntEnum):
     OUTCOMES = 5
     TOLD = 6
     STOP = 7
-
-
-def head(message: Message) -> bytes:
-    """Return the byte that a message without a number begins with."""
-    return bytes((message,))
 
 
 def pack_request(client: str, writes: Sequence[Write]) -> bytes:

@@ -5,6 +5,7 @@ from motionlayer.iec.export._csharp import csharp
 from motionlayer.iec.export._declarations import Constant, Declarations, Variable, VariableList
 from motionlayer.iec.export._st import literal as st_literal
 from motionlayer.iec.export._st import structured_text
+from motionlayer.iec.export._twincat import twincat
 
 __all__ = [
     "Constant",
@@ -15,4 +16,5 @@ __all__ = [
     "csharp",
     "st_literal",
     "structured_text",
+    "twincat",
 ]

@@ -60,6 +60,20 @@ _HEAD: Final = """\
 """
 
 
+_STATES: Final = """\
+/* Command and progress of a state, for instance 12 and 10000 of 10012, 12 and 100 of 112. */
+static inline uint16_t motion_layer_command(uint16_t state)
+{
+    return state >= 100 && state < 1000 ? (uint16_t)(state - 100) : (uint16_t)(state % 1000);
+}
+
+static inline uint16_t motion_layer_progress(uint16_t state)
+{
+    return state >= 100 && state < 1000 ? 100 : (uint16_t)(state - state % 1000);
+}
+"""
+
+
 def c_header(told: Declarations) -> dict[str, str]:
     """Return the header by its name."""
     lines = [f"/* {one_line(told.title)} */", _HEAD]
@@ -70,6 +84,7 @@ def c_header(told: Declarations) -> dict[str, str]:
     lines += [*_constants(told)]
     for group in told.lists:
         lines += _list(group)
+    lines += [_STATES] if told.start else []
     return {NAME: "\n".join([*lines, "#endif"]) + "\n"}
 
 

@@ -65,6 +65,18 @@ namespace MotionLayer
     }
 """
 
+_STATES: Final = """\
+    /// <summary>Command and progress of a state, for instance 12 and 10000 of 10012, 12 and 100 of 112.</summary>
+    public static class State
+    {
+        public static ushort Command(ushort state) =>
+            (ushort)(state >= 100 && state < 1000 ? state - 100 : state % 1000);
+
+        public static ushort Progress(ushort state) =>
+            (ushort)(state >= 100 && state < 1000 ? 100 : state - state % 1000);
+    }
+"""
+
 
 def csharp(told: Declarations) -> dict[str, str]:
     """Return the file by its name.
@@ -72,7 +84,7 @@ def csharp(told: Declarations) -> dict[str, str]:
     Raises:
         ValueError: a union has members that cannot share memory in C#.
     """
-    lines = [f"// {one_line(told.title)}", _HEAD]
+    lines = [f"// {one_line(told.title)}", _HEAD, *([_STATES] if told.start else [])]
     for enumeration in told.enumerations():
         lines += _indented(_enumeration(enumeration))
     for struct in told.structs():

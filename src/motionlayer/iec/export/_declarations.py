@@ -39,20 +39,29 @@ class Variable:
         type: its type.
         comment: what it is for.
         written: the control side writes an image of it (True), reads one (False), or reaches it by symbol alone (None).
+        optional: a motion side may lack it.
     """
 
     name: str
     type: IecType[Any, Any]
     comment: str = ""
     written: bool | None = None
+    optional: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class VariableList:
-    """A global variable list, `GVL_AXIS`."""
+    """A global variable list.
+
+    Attributes:
+        name: `GVL_AXIS`.
+        variables: in their order.
+        used: the motion side does something with them; who carries variables need not carry others.
+    """
 
     name: str
     variables: Sequence[Variable]
+    used: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +75,8 @@ class Declarations:
         constants: constants, in the list `constant_list`.
         lists: variables.
         constant_list: name of the list of constants.
+        start: variable that tells how far the start-up of the motion layer is, `MAIN_AXIS.eInit`; empty where no layer
+            is told of.
     """
 
     title: str
@@ -74,6 +85,7 @@ class Declarations:
     constants: Sequence[Constant] = ()
     lists: Sequence[VariableList] = ()
     constant_list: str = "PLC_CONSTANT"
+    start: str = ""
     _order: list[IecType[Any, Any]] = field(init=False, default_factory=list)
 
     def __post_init__(self) -> None:

@@ -3,10 +3,10 @@
 Enumerations are qualified and strict: members of different ones may share a name. Every structure tells its pack mode,
 so that the default of the project it is put into makes no difference. Variables that the control side writes are
 outputs (`%Q*`) and those that it reads inputs (`%I*`), to be linked with the images of the motion side; those without a
-place are reached by symbol.
+place are reached by symbol. All of it is made object by object, as projects keep them, and is put together as one text.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any, Final
 
 from motionlayer.iec import Array, Boolean, Enumeration, IecType, Member, String, StructType
@@ -16,10 +16,13 @@ from motionlayer.iec.export._declarations import (
     Constant,
     Declarations,
     Variable,
+    VariableList,
     number,
     one_line,
     units,
 )
+from motionlayer.iec.export._st_object import StKind, StObject
+from motionlayer.iec.export._st_parts import parts
 
 MAIN: Final = "motion_layer.st"
 LIBRARY: Final = "motion_layer_libraries.st"
@@ -32,11 +35,17 @@ def structured_text(told: Declarations) -> dict[str, str]:
 
     The second one declares what a project with the motion libraries has already; without such types it is left out.
     """
-    title, library = f"// {one_line(told.title)}", [*_types(told, library=True)]
-    files = {MAIN: [title, "", *_types(told, library=False), *_constants(told), *_lists(told)]}
+    title, made = f"// {one_line(told.title)}", st_objects(told)
+    library = [one.text for one in made if one.library]
+    files = {MAIN: [title, *(one.text for one in made if not one.library)]}
     if library:
-        files[LIBRARY] = [title, "// Only for projects without the motion libraries.", "", *library]
-    return {name: "\n".join(lines).rstrip() + "\n" for name, lines in files.items()}
+        files[LIBRARY] = [f"{title}\n// Only for projects without the motion libraries.", *library]
+    return {name: "\n\n".join(texts) + "\n" for name, texts in files.items()}
+
+
+def st_objects(told: Declarations) -> list[StObject]:
+    """Return everything as the objects of a project: types, lists of variables, functions and blocks."""
+    return [*_types(told), *_constants(told), *map(_list, told.lists), *parts(told)]
 
 
 def literal(kind: IecType[Any, Any], value: Any) -> str:  # noqa: ANN401 - values differ by type
@@ -64,11 +73,16 @@ def _text(kind: String, value: str) -> str:
     return quote + "".join(f"${one}" if one in ("$", quote) else one for one in plain) + quote
 
 
-def _types(told: Declarations, *, library: bool) -> Iterator[str]:
-    for enumeration in told.enumerations(library=library):
-        yield from _enumeration(enumeration)
-    for struct in told.structs(library=library):
-        yield from _struct(struct)
+def _types(told: Declarations) -> Iterator[StObject]:
+    for library in (False, True):
+        for enumeration in told.enumerations(library=library):
+            yield _object(StKind.DUT, enumeration.name, _enumeration(enumeration), library=library)
+        for struct in told.structs(library=library):
+            yield _object(StKind.DUT, struct.name, _struct(struct), library=library)
+
+
+def _object(kind: StKind, name: str, lines: Iterable[str], *, library: bool = False) -> StObject:
+    return StObject(kind, name, "\n".join(lines), library=library)
 
 
 def _enumeration(kind: AnyEnumeration) -> Iterator[str]:
@@ -77,7 +91,7 @@ def _enumeration(kind: AnyEnumeration) -> Iterator[str]:
     last = len(kind.items) - 1
     for at, (name, value) in enumerate(kind.items):
         yield f"    {name} := {int(value)}" + ("" if at == last else ",")
-    yield from [f") {kind.base.name};", "END_TYPE", ""]
+    yield from [f") {kind.base.name};", "END_TYPE"]
 
 
 def _struct(kind: AnyStruct) -> Iterator[str]:
@@ -85,7 +99,7 @@ def _struct(kind: AnyStruct) -> Iterator[str]:
     yield from [f"// {one_line(kind.comment)}"] if kind.comment else []
     yield from [f"{{attribute 'pack_mode' := '{kind.pack}'}}", f"TYPE {kind.name} :", word]
     yield from (f"    {one.name} : {one.type.name}{_start(one)};{_comment(one.comment)}" for one in kind.fields)
-    yield from [f"END_{word}", "END_TYPE", ""]
+    yield from [f"END_{word}", "END_TYPE"]
 
 
 def _start(member: Member) -> str:
@@ -96,22 +110,21 @@ def _comment(text: str) -> str:
     return f" // {one_line(text)}" if text else ""
 
 
-def _constants(told: Declarations) -> Iterator[str]:
+def _constants(told: Declarations) -> Iterator[StObject]:
     if told.constants:
-        yield from [f"// Global variable list {told.constant_list}", "VAR_GLOBAL CONSTANT"]
-        yield from (f"    {_constant(one)}" for one in told.constants)
-        yield from ["END_VAR", ""]
+        lines = [f"// Global variable list {told.constant_list}", "VAR_GLOBAL CONSTANT"]
+        lines += [f"    {_constant(one)}" for one in told.constants]
+        yield _object(StKind.GVL, told.constant_list, [*lines, "END_VAR"])
 
 
 def _constant(one: Constant) -> str:
     return f"{one.name} : {one.type.name} := {literal(one.type, one.value)};{_comment(one.comment)}"
 
 
-def _lists(told: Declarations) -> Iterator[str]:
-    for group in told.lists:
-        yield from [f"// Global variable list {group.name}", "{attribute 'qualified_only'}", "VAR_GLOBAL"]
-        yield from (f"    {_variable(one)}" for one in group.variables)
-        yield from ["END_VAR", ""]
+def _list(group: VariableList) -> StObject:
+    lines = [f"// Global variable list {group.name}", "{attribute 'qualified_only'}", "VAR_GLOBAL"]
+    lines += [f"    {_variable(one)}" for one in group.variables]
+    return _object(StKind.GVL, group.name, [*lines, "END_VAR"])
 
 
 def _variable(one: Variable) -> str:

@@ -17,7 +17,7 @@ MASTERS: Final = 4
 
 
 class AxisCtrl(Struct, iec="ST_AXIS_CTRL", pack=2):
-    """Command of an axis: a change of `cmd` starts a job."""
+    """Command of an axis: a change of eCmd starts a job."""
 
     cmd = Field("eCmd", E_AXIS_CTRL, "command")
     progress = Field("eProgress", E_PROGRESS, "PROGRESS_DONE ends the endless jobs: buffered moves, multi-master")
@@ -31,7 +31,7 @@ class AxisState(Struct, iec="ST_AXIS_STATE", pack=2):
 
 
 class AxisInfo(Struct, iec="ST_AXIS_INFO", pack=2):
-    """What an axis is doing, in every cycle (motion-layer 6)."""
+    """What an axis is doing, in every cycle."""
 
     enabled = Field("bEnabled", BIT, "the axis follows its setpoints")
     referenced = Field("bReferenced", BIT, "its positions are those of the machine")

@@ -65,7 +65,7 @@ class CamOptions(Struct, iec="ST_CAM_OPTIONS", pack=2):
 class CamData(Struct, iec="ST_CAM_DATA", pack=2):
     """Data of the commands of a cam."""
 
-    at_master_position = Field("bAtMasterPosition", BIT, "CAM_INFO: what would be at `rMasterPosition`")
+    at_master_position = Field("bAtMasterPosition", BIT, "CAM_INFO: what would be at rMasterPosition")
     master_index = Field("nMasterIndex", UINT, "index of the master")
     master_position = Field("rMasterPosition", LREAL, "position of the master for CAM_INFO (u)")
     activation_position = Field("rActivationPosition", LREAL, "where a change comes into force (u)")

@@ -59,7 +59,7 @@ class IndexGroup(Struct, iec="ST_Index_Group", pack=2):
 
 
 class RParameters(Struct, iec="ST_R_Parameter", pack=2):
-    """R parameters of a channel, `start` and the ones behind it; the room is MAX_R_PARA + 1."""
+    """R parameters of a channel, _nStart and the ones behind it; the room is MAX_R_PARA + 1."""
 
     start = Field("_nStart", DINT, "first R number: 0 to 899 of the channel, 900 to 999 of all", default=901)
     count = Field("_nCount", DINT, "how many", default=4)

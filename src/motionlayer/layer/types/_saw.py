@@ -30,7 +30,7 @@ class FlyData(Struct, iec="ST_FLY_DATA", pack=2):
 
 
 class FlySyncMode(Struct, iec="ST_FLY_SYNC_MODE"):
-    """What is watched while the slave joins; the bytes of `ST_SyncMode` of the library."""
+    """What is watched while the slave joins; the bytes of ST_SyncMode of the library."""
 
     mode = Field("GearInSyncMode", INT, "E_GearInSyncMode")
     check_min_position = Field("GearInSync_CheckMask_MinPos", BOOL, "least position")
@@ -39,8 +39,8 @@ class FlySyncMode(Struct, iec="ST_FLY_SYNC_MODE"):
     check_max_acceleration = Field("GearInSync_CheckMask_MaxAcc", BOOL, "largest acceleration")
     check_max_deceleration = Field("GearInSync_CheckMask_MaxDec", BOOL, "largest deceleration")
     check_max_jerk = Field("GearInSync_CheckMask_MaxJerk", BOOL, "largest jerk")
-    check_optional_min = Field("GearInSync_CheckMask_OptionalMinPos", BOOL, "the limit `PositionLimitMin`")
-    check_optional_max = Field("GearInSync_CheckMask_OptionalMaxPos", BOOL, "the limit `PositionLimitMax`")
+    check_optional_min = Field("GearInSync_CheckMask_OptionalMinPos", BOOL, "the limit PositionLimitMin")
+    check_optional_max = Field("GearInSync_CheckMask_OptionalMaxPos", BOOL, "the limit PositionLimitMax")
     check_overshoot = Field("GearInSync_CheckMask_OvershootPos", BOOL, "no way beyond the meeting point")
     check_undershoot = Field("GearInSync_CheckMask_UndershootPos", BOOL, "no way back behind the start")
     check_overshoot_velocity = Field("GearInSync_CheckMask_OvershootVelo", BOOL, "not faster than when joined")

@@ -17,7 +17,7 @@ class TouchProbeCtrl(Struct, iec="ST_CTRL_TOUCH_PROBE"):
 class TouchProbeState(Struct, iec="ST_STATE_TOUCH_PROBE"):
     """Answer of a touch probe."""
 
-    state = Field("State", UINT, "E_PROGRESS; an error is 9000 and its code (motion-layer 5.15)")
+    state = Field("State", UINT, "E_PROGRESS; an error is 9000 and its code")
     rising = Field("LatchPositive", LREAL, "position of the rising edge (u)")
     falling = Field("LatchNegative", LREAL, "position of the falling edge (u)")
 

@@ -34,7 +34,7 @@ class TriggerCtrl(Struct, iec="ST_CTRL_TRIGGER"):
 class TriggerState(Struct, iec="ST_STATE_TRIGGER"):
     """Answer of a trigger box; the room is MAX_TRIGGER_COUNT."""
 
-    state = Field("State", UINT, "E_PROGRESS; an error is 9000 and its code (motion-layer 5.16)")
+    state = Field("State", UINT, "E_PROGRESS; an error is 9000 and its code")
     init = Field("Init", UINT, "E_PROGRESS of the initialisation of the outputs")
     positions = Field("FlashPosition", Array(LREAL, (1, MAX_TRIGGER_COUNT)), "where the feedback came (u)")
 

@@ -9,6 +9,9 @@ Offset = Callable[[int], int]
 """Local time less UTC in seconds, at a time in seconds since 1970 UTC."""
 
 DAY: Final = 86_400
+FAR: Final = 3 * DAY
+"""How long before a moment the midnights are gone through one by one: a jump of the offset shows in two of them."""
+
 SECOND: Final = 1_000_000_000
 MILLISECOND: Final = 1_000_000
 
@@ -72,9 +75,11 @@ class LocalTime:
         self._tick = -1
 
     def _turn(self, second: int) -> None:
-        """Go on to another second, through all midnights before it."""
+        """Go on to another second, through the midnights before it; of many only the last ones matter."""
         if second >= self._midnight:
             before = self._offset
+            if second - self._midnight > FAR:
+                self._skip(second - FAR)
             while second >= self._midnight:
                 self._offset = self._look_up(self._midnight)
                 self._begin_day()
@@ -82,6 +87,12 @@ class LocalTime:
             self.shift = Shift(before, self._offset) if before != self._offset else None
         self._second = second
         self._head = datetime.fromtimestamp(second + self._offset, UTC).strftime("%Y-%m-%d-%H:%M:%S.")
+
+    def _skip(self, second: int) -> None:
+        """Go to a second as if all began there: decades lie between 1970 and the first tick of a real-time run."""
+        self._offset = self._look_up(second)
+        self._midnight = second
+        self._begin_day()
 
     def _begin_day(self) -> None:
         """Set the date at what was the next midnight, and the midnight after it."""

@@ -4,7 +4,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from motionlayer.event import Event, Kind, Level
+from motionlayer.event import Digest, Entry, Event, Kind, Level, told
 from motionlayer.record._trace import Trace
 from motionlayer.record.plot._series import ERROR_STOP, axes_of, column
 
@@ -46,8 +46,7 @@ def marks_of(trace: Trace) -> dict[str, list[Mark]]:
         kind = kind_of(event)
         if kind:
             row = event.source if event.source in rows else OTHERS
-            text = event.text if event.text.startswith(event.source) else f"{event.source}: {event.text}"
-            marks[kind].append(Mark(kind, event.tick * trace.base_cycle, row, text))
+            marks[kind].append(Mark(kind, event.tick * trace.base_cycle, row, told(event)))
     return {kind: _some(found) for kind, found in marks.items() if found}
 
 
@@ -75,6 +74,9 @@ def error_stops(trace: Trace, axis: str) -> list[float]:
     return [float(time) for time in trace.time[entered][:MOST_MARKS]]
 
 
-def grave_events(trace: Trace) -> list[Event]:
-    """Return the errors and warnings, in order."""
-    return [event for event in trace.events if event.level <= Level.WARNING]
+def grave_entries(trace: Trace) -> list[Entry]:
+    """Return what was said in errors, then in warnings; once each, in the order in which it was last said."""
+    digest = Digest()
+    for event in trace.events:
+        digest(event)
+    return digest.entries()

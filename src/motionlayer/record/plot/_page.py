@@ -10,37 +10,22 @@ import numpy as np
 from motionlayer.record._errors import TraceError
 from motionlayer.record._trace import Trace
 from motionlayer.record.plot._curves import MOST_AXES
-from motionlayer.record.plot._events import grave_events, marks_of
+from motionlayer.record.plot._events import grave_entries, marks_of
+from motionlayer.record.plot._figures import grouped, number, table
 from motionlayer.record.plot._series import (
     STATES,
-    KeyFigures,
-    Peak,
     axes_of,
     column,
-    key_figures,
+    moves,
     opening,
     plane_of,
 )
 from motionlayer.record.plot._style import ALARM, FONT, MARK_STYLES, STATE_COLOURS, colours
 
 SUFFIXES: Final = (".html", ".htm")
-THIN_SPACE: Final = "\u2009"
-NONE: Final = "<span class=soft>–</span>"  # noqa: RUF001 - the dash of a table cell
-ALMOST: Final = 1.0 + 1e-6
-"""A share of a limit above this is shown in red; below it is rounding."""
+MOST_ENTRIES: Final = 20
+"""Errors and warnings that are listed."""
 
-MOST_EVENTS: Final = 20
-"""Errors and warnings that are listed, the first ones."""
-
-COLUMNS: Final = (
-    "Moves",
-    "Travel",
-    "Range",
-    "Peak velocity",
-    "Peak acceleration",
-    "Peak deceleration",
-    "Peak jerk",
-)
 STYLE: Final = """
 body { margin: 0; background: #fff; color: #1f2933; font: 14px/1.45 %(font)s; }
 main { max-width: 1240px; margin: 0 auto; padding: 40px 36px 60px; container-type: inline-size; }
@@ -110,9 +95,9 @@ def _page(trace: Trace) -> str:
         f"<style>{STYLE % {'font': FONT, 'alarm': ALARM}}</style><script>{get_plotlyjs()}</script></head>",
         "<body><main>",
         f"<h1>{name}</h1>{_subtitle(trace)}",
-        _table(trace, colours(trace)),
+        table(trace, colours(trace)),
     ]
-    if plane is not None:
+    if plane is not None and all(moves(trace, axis) for axis in plane):
         parts += [
             f"<h2>Path in the plane {escape(plane[0])}, {escape(plane[1])}</h2>",
             _chart("path", trace, *_path.path_chart(trace, plane)),
@@ -133,9 +118,9 @@ def _name(trace: Trace) -> str:
 
 def _subtitle(trace: Trace) -> str:
     facts = [
-        f"{_number(len(trace.ticks) * trace.base_cycle)} s",
-        f"{_grouped(len(trace.ticks), 0)} ticks of {_number(trace.base_cycle * 1e3)} ms",
-        f"{_grouped(len(trace.events), 0)} events",
+        f"{number(len(trace.ticks) * trace.base_cycle)} s",
+        f"{grouped(len(trace.ticks), 0)} ticks of {number(trace.base_cycle * 1e3)} ms",
+        f"{grouped(len(trace.events), 0)} events",
         escape(str(trace.header.get("product", ""))),
     ]
     digest = f"<div class='soft mono'>{escape(trace.hash)}</div>" if trace.hash else ""
@@ -145,14 +130,14 @@ def _subtitle(trace: Trace) -> str:
 def _warning(trace: Trace) -> str:
     """Say what is wrong with the trace itself."""
     if trace.gaps:
-        lost = _grouped(sum(gap.ticks for gap in trace.gaps), 0)
-        first = _grouped(trace.gaps[0].first, 0)
+        lost = grouped(sum(gap.ticks for gap in trace.gaps), 0)
+        first = grouped(trace.gaps[0].first, 0)
         return f"<div class=warn>{lost} ticks are missing, from tick {first} on: the writer did not keep up.</div>"
     if trace.complete:
         return ""
     if trace.damage:
         return f"<div class=warn>The file is damaged: {escape(trace.damage)}. Shown is what was read.</div>"
-    end = f"{_grouped(float(trace.time[-1]), 3)} s, tick {_grouped(int(trace.ticks[-1]), 0)}"
+    end = f"{grouped(float(trace.time[-1]), 3)} s, tick {grouped(int(trace.ticks[-1]), 0)}"
     return f"<div class=warn>Incomplete: the writer of the trace was cut short. The recording ends at {end}.</div>"
 
 
@@ -162,45 +147,8 @@ def _stretch(trace: Trace) -> str:
     whole = float(trace.time[-1] - trace.time[0])
     if end - start > 0.99 * whole:
         return ""
-    shown = f"{_number(start)} to {_number(end)} s of {_number(whole)} s"
+    shown = f"{number(start)} to {number(end)} s of {number(whole)} s"
     return f"<div class=small>Opened at {shown}; a double-click shows the whole run.</div>"
-
-
-def _table(trace: Trace, colour: dict[str, str]) -> str:
-    head = "".join(f"<th>{title}</th>" for title in COLUMNS)
-    rows = [_row(axis, unit, key_figures(trace, axis), colour[axis]) for axis, unit in axes_of(trace).items()]
-    table = f"<table><thead><tr><th>Axis</th>{head}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
-    note = "<div class=small>Bars and percentages: share of the limit that was in force at the peak.</div>"
-    return f"<div class=scroll>{table}</div>{note if 'class=bar' in table else ''}"
-
-
-def _row(axis: str, unit: str, figures: KeyFigures, colour: str) -> str:
-    travel, span = figures.travel, figures.span
-    cells = [
-        f"<span class=dot style='background:{colour}'></span>{escape(axis)}",
-        _grouped(figures.moves, 0),
-        NONE if travel is None else _quantity(travel, unit),
-        NONE if span is None else f"{_number(span[0])} … {_number(span[1])}{_unit(unit)}",
-        _peak(figures.velocity, f"{unit}/s", colour),
-        _peak(figures.acceleration, f"{unit}/s²", colour),
-        _peak(figures.deceleration, f"{unit}/s²", colour),
-        _peak(figures.jerk, f"{unit}/s³", colour),
-    ]
-    return "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
-
-
-def _peak(peak: Peak | None, unit: str, colour: str) -> str:
-    """A value, and below it the share of its limit as a bar; what exceeds its limit is red."""
-    if peak is None:
-        return NONE
-    text = _quantity(peak.value, unit)
-    if np.isnan(peak.share):
-        return text
-    over = peak.share > ALMOST
-    fill = ALARM if over else colour
-    share = f"<span class='{'warn' if over else 'share'}'>{peak.share:.0%}</span>"
-    width = min(peak.share, 1.0) * 100.0
-    return f"{text}<div class=bar><i style='width:{width:.1f}%;background:{fill}'></i></div>{share}"
 
 
 def _key(trace: Trace) -> str:
@@ -220,17 +168,17 @@ def _key(trace: Trace) -> str:
 
 
 def _events(trace: Trace) -> str:
-    """List the first errors and warnings."""
-    events = grave_events(trace)
-    if not events:
+    """List errors, then warnings; what was said more than once stands there once."""
+    entries = grave_entries(trace)
+    if not entries:
         return ""
     rows = "".join(
-        f"<tr><td>{event.tick * trace.base_cycle:.6f} s</td><td>{event.level.name.lower()}</td>"
-        f"<td>{escape(event.source)}</td><td>{escape(event.text)}</td></tr>"
-        for event in events[:MOST_EVENTS]
+        f"<tr><td>{entry.event.tick * trace.base_cycle:.6f} s</td><td>{entry.event.level.name.lower()}</td>"
+        f"<td>{escape(entry.line(trace.base_cycle))}</td></tr>"
+        for entry in entries[:MOST_ENTRIES]
     )
-    more = f"<div class=small>and {_grouped(len(events) - MOST_EVENTS, 0)} more</div>"
-    return f"<h2>Errors and warnings</h2><table class=list>{rows}</table>{more if len(events) > MOST_EVENTS else ''}"
+    more = f"<div class=small>and {grouped(len(entries) - MOST_ENTRIES, 0)} more</div>"
+    return f"<h2>Errors and warnings</h2><table class=list>{rows}</table>{more if len(entries) > MOST_ENTRIES else ''}"
 
 
 def _chart(name: str, trace: Trace, figure: Any, height: str = "100%") -> str:  # noqa: ANN401 - plotly has no types
@@ -255,24 +203,3 @@ def _footer(trace: Trace, note: str) -> str:
     if len(axes_of(trace)) > MOST_AXES:
         notes.append(f"The first {MOST_AXES} of {len(axes_of(trace))} axes are drawn.")
     return f"<footer>{' '.join(notes)}</footer>"
-
-
-def _quantity(value: float, unit: str) -> str:
-    return f"{_number(value)}{_unit(unit)}"
-
-
-def _unit(unit: str) -> str:
-    return f" <span class=unit>{escape(unit)}</span>" if unit else ""
-
-
-def _number(value: float) -> str:
-    """Four significant digits, never an exponent below a million million, thousands apart."""
-    if value == 0.0 or not np.isfinite(value):
-        return f"{value:g}"
-    digits = max(0, 3 - int(np.floor(np.log10(abs(value)))))
-    text = _grouped(value, min(digits, 9))
-    return text.rstrip("0").rstrip(".") if "." in text else text
-
-
-def _grouped(value: float, digits: int) -> str:
-    return f"{value:,.{digits}f}".replace(",", THIN_SPACE)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from motionlayer.record._trace import Trace
 from motionlayer.record.plot._reduce import Floats, Indices, extent, follow
-from motionlayer.record.plot._series import axes_of, places_of_rest, speed_along
+from motionlayer.record.plot._series import axes_of, places_of_rest, redefined, speed_along
 from motionlayer.record.plot._style import SOFT, axis_style, common
 
 SPEED_SCALE: Final = ((0.0, "#c3d7ea"), (0.3, "#7fb2dc"), (0.65, "#2f78b7"), (1.0, "#0b2f5b"))
@@ -42,9 +42,10 @@ def path_chart(trace: Trace, plane: tuple[str, str]) -> PathChart:
     """Return the path of two axes in equal scales, coloured by speed, and its places of rest."""
     x, y = trace[f"{plane[0]}.set_position"], trace[f"{plane[1]}.set_position"]
     unit = axes_of(trace)[plane[0]]
-    chosen = _vertices(trace.time, x, y)
-    strokes = _strokes(trace.time[chosen], x[chosen], y[chosen], unit)
-    figure = go.Figure([*strokes, _places(trace, x, y, unit)])
+    jumps = redefined(trace, *plane)
+    chosen = np.unique(np.concatenate([_vertices(trace.time, x, y), jumps - 1, jumps]))
+    strokes = _strokes(trace.time[chosen], x[chosen], y[chosen], unit, np.searchsorted(chosen, jumps))
+    figure = go.Figure([*strokes, _places(x, y, unit, speed_along(x, y, trace.base_cycle, jumps))])
     x_range, y_range = _ranges(x, y)
     equal = {"scaleanchor": "x", "constrain": "domain", "constraintoward": "top"}
     figure.update_layout(
@@ -75,9 +76,10 @@ def _vertices(time: Floats, x: Floats, y: Floats) -> Indices:
     return chosen
 
 
-def _strokes(time: Floats, x: Floats, y: Floats, unit: str) -> Iterator[go.Scatter]:
-    """Yield the colour bar and the segments of each shade, the slow ones first."""
+def _strokes(time: Floats, x: Floats, y: Floats, unit: str, jumps: Indices) -> Iterator[go.Scatter]:
+    """Yield the colour bar and the segments of each shade, the slow ones first; none leads to a point of `jumps`."""
     speed = np.hypot(np.diff(x), np.diff(y)) / np.diff(time)
+    speed[jumps - 1] = 0.0
     top = float(speed.max(initial=0.0)) or 1.0
     shade = np.minimum(speed / top * SHADES, SHADES - 1).astype(np.intp)
     yield _colour_bar(unit, top)
@@ -111,8 +113,8 @@ def _joined(segments: Indices) -> Indices:
     return np.concatenate([np.append(group, [group[-1] + 1, -1]) for group in groups])
 
 
-def _places(trace: Trace, x: Floats, y: Floats, unit: str) -> go.Scatter:
-    places, counts = places_of_rest(x, y, speed_along(x, y, trace.base_cycle))
+def _places(x: Floats, y: Floats, unit: str, speed: Floats) -> go.Scatter:
+    places, counts = places_of_rest(x, y, speed)
     return go.Scatter(
         x=places[:, 0],
         y=places[:, 1],

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motionlayer.record._trace import Trace
-from motionlayer.record.plot._reduce import Floats
+from motionlayer.record.plot._reduce import Floats, Indices
 
 STATES: Final = {
     1: "Disabled",
@@ -29,6 +29,9 @@ OPENING_MOVES: Final = 8
 
 REST_SPEED: Final = 1e-6
 """Share of the top speed below which a mover is taken to rest."""
+
+REDEFINING: Final = ("set", "shift")
+"""Kinds of plans that give a place another coordinate; nothing moves by them."""
 
 MOVES: Final = ("position", "velocity")
 """Kinds of plans that lead somewhere."""
@@ -134,7 +137,7 @@ def key_figures(trace: Trace, axis: str) -> KeyFigures:
     moves = {plan.command for plan in trace.plans if plan.axis == axis and plan.kind in MOVES}
     return KeyFigures(
         moves=len(moves - {0}),
-        travel=None if p is None else float(np.abs(np.diff(p)).sum()),
+        travel=None if p is None else travel(trace, axis, p),
         span=None if p is None else (float(p.min()), float(p.max())),
         velocity=_peak(v, column(trace, axis, "max_velocity")),
         acceleration=_peak(_where(a, braking, wanted=False), column(trace, axis, "max_acceleration")),
@@ -164,11 +167,32 @@ def plane_of(trace: Trace) -> tuple[str, str] | None:
     return next(pairs, None)
 
 
-def speed_along(x: Floats, y: Floats, dt: float) -> Floats:
-    """Return the speed of every row from the way to the row before, u/s."""
+def redefined(trace: Trace, *axes: str) -> Indices:
+    """Return the rows in which positions of one of the axes are in another coordinate than in the row before."""
+    ticks = [plan.tick for plan in trace.plans if plan.axis in axes and plan.kind in REDEFINING]
+    rows = np.flatnonzero(np.isin(trace.ticks, ticks))
+    return rows[rows > 0]
+
+
+def travel(trace: Trace, axis: str, p: Floats) -> float:
+    """Return the sum of the ways of an axis, u; homing and the like move nothing."""
+    ways = np.abs(np.diff(p))
+    ways[redefined(trace, axis) - 1] = 0.0
+    return float(ways.sum())
+
+
+def moves(trace: Trace, axis: str) -> bool:
+    """Tell whether an axis, whose set position was recorded, ever moves."""
+    p = column(trace, axis, "set_position")
+    return p is not None and travel(trace, axis, p) > 0.0
+
+
+def speed_along(x: Floats, y: Floats, dt: float, jumps: Indices) -> Floats:
+    """Return the speed of every row from the way to the row before, u/s; as before in the rows `jumps`."""
     if len(x) < 2:
         return np.zeros(len(x))
     way = np.sqrt(np.diff(x) ** 2 + np.diff(y) ** 2)
+    way[jumps - 1] = way[np.maximum(jumps - 2, 0)]
     return np.append(way[0], way) / dt
 
 

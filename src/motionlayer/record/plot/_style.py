@@ -39,6 +39,7 @@ def colours(trace: Trace) -> dict[str, str]:
 
 
 def axis_style() -> dict[str, Any]:
+    """Return how an axis of a chart looks."""
     return {
         "gridcolor": GRID,
         "linecolor": "#cbd2d9",
@@ -53,6 +54,7 @@ def axis_style() -> dict[str, Any]:
 
 
 def common() -> dict[str, Any]:
+    """Return what the layouts of all charts have in common."""
     return {
         "template": "none",
         "paper_bgcolor": "white",

@@ -6,8 +6,9 @@ one that a program keeps in its memory and that a closure watches, before and af
 any of them holds the right one. Pickling would make others, and closures cannot be pickled at all.
 
 What is not followed: immutable values, classes and modules, what is pinned, and the closures of functions outside of
-this package: a program's own code belongs to whoever wrote it. What can change in a way that Python cannot see, a file
-or a running generator, is refused by its path from the root.
+this package: a program's own code belongs to whoever wrote it. A class says `UNCHANGING = True` if its objects never
+change, nor anything that they hold: descriptions, of which there may be thousands. What can change in a way that
+Python cannot see, a file or a running generator, is refused by its path from the root.
 
 Order does not matter: what is put back holds references, and none of it is looked at on the way.
 """

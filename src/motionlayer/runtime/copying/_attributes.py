@@ -44,7 +44,11 @@ def attributes_of(thing: object) -> tuple[dict[str, Any], Slots]:
     """Return what an object holds; the dictionary is a copy."""
     kind = type(thing)
     values = dict(object.__getattribute__(thing, "__dict__")) if kind.__dictoffset__ else {}
-    return values, tuple((slot, _read(slot, thing)) for slot in slots_of(kind))
+    members = slots_of(kind)
+    try:  # most objects have set all of them, and snapshots look at tens of thousands
+        return values, tuple([(slot, slot.__get__(thing)) for slot in members])
+    except AttributeError:
+        return values, tuple([(slot, _read(slot, thing)) for slot in members])
 
 
 def put_attributes(thing: object, held: tuple[dict[str, Any], Slots]) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from motionlayer.runtime.copying._attributes import attributes_of, put_attributes
-from motionlayer.runtime.copying._followers import ATOMS, Follower, Put, Trail, follower_of
+from motionlayer.runtime.copying._followers import ATOMS, Put, Trail, follower_of
 
 
 class Copies:
@@ -27,7 +27,6 @@ class Copies:
     ) -> None:
         self._settled = settled
         self._notes: list[tuple[Put, Any, Any]] = []
-        self._followers: dict[type, Follower] = {}
         self._pinned = list(pinned)  # kept, so that no other object takes their place in memory
         self._seen = {id(one) for one in self._pinned}
         self._open: list[tuple[object, Trail]] = []
@@ -54,17 +53,12 @@ class Copies:
                 self._open.append((thing, (trail, form, key)))
 
     def _follow_all(self) -> None:
-        seen, followers = self._seen, self._followers
+        seen = self._seen
         while self._open:
             thing, trail = self._open.pop()
-            if id(thing) in seen:
-                continue
-            seen.add(id(thing))
-            kind = type(thing)
-            follow = followers.get(kind)
-            if follow is None:
-                follow = followers[kind] = follower_of(kind)
-            follow(self, thing, trail)
+            if id(thing) not in seen:
+                seen.add(id(thing))
+                follower_of(type(thing))(self, thing, trail)
 
     def plain(self, thing: object, trail: Trail) -> None:
         """Follow an object of a class written in Python."""
@@ -73,4 +67,6 @@ class Copies:
         values, slots = attributes_of(thing)
         self.note(put_attributes, thing, (values, slots))
         self.later(values.items(), trail, ".{}")
-        self.later(((slot.__name__, value) for slot, value in slots), trail, ".{}")
+        for slot, value in slots:
+            if type(value) not in ATOMS:
+                self._open.append((value, (trail, ".{}", slot.__name__)))

@@ -47,9 +47,18 @@ class NotCopyable(RuntimeError):  # noqa: N818 - the state, as a user would say 
     """Something cannot be copied; the message says where it is kept."""
 
 
+_KNOWN: Final[dict[type, Follower]] = {}
+"""Found once per class."""
+
+
 def follower_of(kind: type) -> Follower:
     """Return how objects of a class are followed."""
-    if issubclass(kind, tuple(ATOMS)) or issubclass(kind, enum.Enum):
+    known = _KNOWN.get(kind)
+    return known if known is not None else _KNOWN.setdefault(kind, _found(kind))
+
+
+def _found(kind: type) -> Follower:
+    if issubclass(kind, (*ATOMS, enum.Enum)) or getattr(kind, "UNCHANGING", False):
         return _leave
     known = next((_FOLLOWERS[base] for base in kind.__mro__ if base in _FOLLOWERS), None)
     if known is None:
