@@ -9,7 +9,7 @@ import pytest
 
 from motionlayer.bench import GROUPS, Effort, Environment, Failed, Row, Skipped
 from motionlayer.bench import _ads_load as load
-from motionlayer.bench._ads_reader import Client
+from motionlayer.bench._ads_reader import Client, missing
 
 HERE = Environment(Path(sys.executable))
 TINY = Effort(samples=30, runs=1, peers=HERE)
@@ -50,28 +50,30 @@ def test_a_server_that_refuses_is_a_failure() -> None:
         load.paused(run, lambda: load.ask(TINY, "latencies", run, calls=1))
 
 
-def notified(stamps: list[int]) -> Client:
-    """Return a client that was sent samples of notification 7 with these time stamps, in 100 ns."""
+def notified(ticks: list[int]) -> Client:
+    """Return a client that was sent samples of notification 7 at these ticks; time has slipped after the second."""
     client = Client.__new__(Client)
-    client.counts = {}
-    client._cycle = 100_000
-    for stamp in stamps:
-        samples = struct.pack("<QI2Id", stamp, 1, 7, 8, 0.0)
+    client.stamps, client.ticks, client._clock = {}, {}, 7
+    for number, tick in enumerate(ticks):
+        stamp = tick * 10_000 + (700_000 if number > 1 else 0)
+        samples = struct.pack("<QI2Id", stamp, 1, 7, 8, float(tick))
         client._count(struct.pack("<2I", 4 + len(samples), 1) + samples)
     return client
 
 
 @pytest.mark.parametrize(
-    ("stamps", "counted"),
+    ("ticks", "lost"),
     [
-        ([0, 30_000, 130_000, 230_000], (4, 0)),  # the first sample comes before its grid
-        ([0, 100_000, 210_000, 300_000], (4, 0)),  # a look that was a tick late
-        ([0, 100_000, 400_000, 500_000], (4, 2)),
+        ([0, 3, 13, 23], 0),
+        ([0, 10, 21, 30], 0),  # a look that was a tick late
+        ([0, 10, 40, 50], 2),
+        ([0, 100, 110, 120], 0),  # the first sample comes when it likes
     ],
 )
-def test_the_reader_finds_what_is_missing_between_samples(stamps: list[int], counted: tuple[int, int]) -> None:
-    last, samples, lost = notified(stamps).counts[7]
-    assert (last, (samples, lost)) == (stamps[-1], counted)
+def test_the_reader_finds_what_is_missing_between_samples(ticks: list[int], lost: int) -> None:
+    client = notified(ticks)
+    assert len(client.stamps[7]) == len(ticks)
+    assert missing(client.stamps[7], client.ticks, 10) == lost
 
 
 def test_the_structure_has_the_size_that_the_peer_has() -> None:

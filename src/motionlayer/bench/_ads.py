@@ -27,6 +27,9 @@ NOTIFICATIONS: Final = 50
 NOTIFIED: Final = 0.01
 """Seconds between two samples of a notification."""
 
+EVERY: Final = 10
+"""The same in ticks."""
+
 PER_TURN: Final = 10
 """Samples of the effort for each call in a turn: 200 calls of 2000 samples."""
 
@@ -74,7 +77,7 @@ class _Loaded(NamedTuple):
 
     Attributes:
         samples: that came.
-        lost: that the time stamps say were to come between them.
+        lost: that were to come between them.
         core: share of a core that the server took.
         compute: p99 with and without, ns.
         late: the same of the lateness.
@@ -106,7 +109,7 @@ def _counted(run: RealTime, duration: float) -> tuple[dict[str, int], float]:
     if pid is None:
         raise Failed("the server runs in no process of its own")
     begin, used = time.perf_counter(), processor_time(pid)
-    found = count(run, clients=CLIENTS, notifications=NOTIFICATIONS, cycle=NOTIFIED, duration=duration)
+    found = count(run, clients=CLIENTS, notifications=NOTIFICATIONS, cycle=NOTIFIED, every=EVERY, duration=duration)
     core = (processor_time(pid) - used) / (time.perf_counter() - begin)
     if found["silent"]:
         raise Failed(f"{found['silent']} of {CLIENTS * NOTIFICATIONS} notifications never came")
@@ -119,7 +122,7 @@ def _p99(run: RealTime) -> tuple[int, int]:
 
 
 def delivered(effort: Effort) -> Figure:
-    """Return the share of the samples that the raw reader has got, of those the time stamps say there must be."""
+    """Return the share of the samples that the raw reader has got, of those that the ticks say there must be."""
     found = _loaded(effort)
     due = found.samples + found.lost
     return Figure(found.samples / due, f"{found.samples} of {due} samples")

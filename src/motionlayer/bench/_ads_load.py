@@ -67,10 +67,14 @@ def served(axes: int, add: Callable[[SymbolTable], None] = declare) -> Iterator[
 
 
 def moving(run: RealTime, act: Callable[[], T]) -> T:
-    """Return what `act` does in another thread while all axes of a run move; it begins when they do."""
+    """Return what `act` does in another thread while all axes of a run move; it begins when they do.
+
+    The first of the values is the number of the tick meanwhile.
+    """
     programs = [
         run.start(_endless(run, axis, 100.0 + number % 7), axis.name) for number, axis in enumerate(run.axes.values())
     ]
+    programs.append(run.start(_show_ticks(run), "clock"))
 
     def settled() -> T:
         end = time.monotonic() + STARTING
@@ -125,6 +129,12 @@ def _beside(run: RealTime, act: Callable[[], T], programs: Iterable[Program]) ->
     if problems:
         raise problems[0]
     return found[0]
+
+
+async def _show_ticks(run: RealTime) -> None:
+    while True:
+        run.symbols.write("GVL.Values[1]", float(run.tick), by="bench")
+        await run.sleep(0)
 
 
 async def _endless(run: RealTime, axis: Axis, velocity: float) -> None:
