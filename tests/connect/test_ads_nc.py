@@ -26,6 +26,9 @@ CONTROL, ENABLE, FEED_PLUS, FEED_MINUS, HOMING_CAM, OVERRIDE = 0x01, 0x02, 0x03,
 CYCLES, SET_POSITION, SET_VELOCITY = 0x09, 0x0A, 0x0E
 ABSOLUTE, RELATIVE = 1, 2
 
+LONGEST = 20_000
+"""Ticks that no motion here takes."""
+
 NOT_PERMITTED, INVALID_SIZE, INVALID_OFFSET = 0x704, 0x705, 0x703
 
 MACHINE = {
@@ -71,13 +74,14 @@ class Nc:
         self.until(AxisState.STANDSTILL)
 
     def until(self, state: AxisState) -> None:
-        """Wait for a state, and until clients read the values of a tick that began in it."""
-        for _ in range(20_000):
-            if self.axis.state is state:
-                break
+        """Wait for a state, and until clients read the values of a tick that began in it.
+
+        The bound is one of ticks: how many requests a tick takes depends on the machine.
+        """
+        last = self.run.tick + LONGEST
+        while self.axis.state is not state:
+            assert self.run.tick < last, f"{self.axis.state}, not {state}"
             self.value(STATE, SET_POSITION, "d")
-        else:
-            raise AssertionError(f"{self.axis.state}, not {state}")
         tick = self.run.tick
         while self.value(STATE, CYCLES, "I") <= tick:
             pass
