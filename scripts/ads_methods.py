@@ -11,7 +11,7 @@ from _generated import ROOT, current
 
 from motionlayer import Machine, Simulation
 from motionlayer.connect.ads import Tree
-from motionlayer.connect.ads._tree import MethodNode
+from motionlayer.connect.ads._nodes import MethodNode
 
 NOTE: Final = "<!-- Written by scripts/ads_methods.py from the code; do not edit. -->"
 SYMBOL: Final = "FB_MOTION_AXIS"

@@ -16,6 +16,7 @@ from motionlayer.iec import Array, Enumeration, InputArray, Member, Scalar, Stru
 from motionlayer.iec.export import st_literal as literal
 from motionlayer.layer import Features, Globals, Sizes, types
 from motionlayer.layer._constants import constants
+from motionlayer.layer._declarations import TYPE_ALIASES
 from motionlayer.layer._global_list import Entry, GlobalList
 
 NOTE: Final = "<!-- Written by scripts/layer_types.py from the code; do not edit. -->"
@@ -50,7 +51,9 @@ For the control side:
 
 - Each has what splits a state into command and progress: `F_StateCommand`, `motion_layer_command`, `State.Command`.
 
-Start values matter: a `rOverride` of 0 lets no axis move.
+Start values matter: a `rOverride` of 0 lets no axis move. `HomeParameter` begins with `home.position` of the axes
+where one is not 0: declared with the variable in Structured Text, `GVL_AXIS_HomeParameter_INIT` in C,
+`GVL_AXIS.CreateHomeParameter()` in C#.
 
 The variables of channels, cams, flying saws, touch probes and trigger boxes have their symbols, and answer NOT_EXIST:
 [types that wait](layer-types-later.md).
@@ -186,6 +189,8 @@ def _symbol(one: Entry, page: Page) -> list[str]:
 
 def _aliases(group: GlobalList) -> Iterator[str]:
     also = [f"`{alias}` is `{one.variable.name}`" for one in group.entries for alias in one.aliases]
+    used = [one.variable.of for one in group.entries]
+    also += [f"type `{alias}` is `{kind.name}`" for alias, kind in TYPE_ALIASES.items() if kind in used]
     yield from [*textwrap.wrap(f"Other names of the same: {', '.join(also)}.", WIDTH), ""] if also else []
 
 

@@ -1,7 +1,9 @@
 """How much tests with random inputs try: all in the full suite, a share in the quick one (`scripts/check.py`)."""
 
-from typing import Final
+from collections.abc import Iterable
+from typing import Any, Final
 
+import pytest
 from hypothesis import settings
 
 QUICK: Final = "quick"
@@ -26,3 +28,14 @@ def register() -> None:
 def examples(count: int) -> int:
     """Return how many of `count` examples to try."""
     return max(count // SHARE, LEAST) if quick() else count
+
+
+def thinned(values: Iterable[Any], each: int = SHARE) -> list[Any]:
+    """Return parameters of a test of which the quick suite takes the first of so many; the others are slow.
+
+    A tuple holds the values of several parameters.
+    """
+    return [
+        pytest.param(*(value if isinstance(value, tuple) else (value,)), marks=[pytest.mark.slow] * (number % each > 0))
+        for number, value in enumerate(values)
+    ]

@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from tests.effort import thinned
 
 from motionlayer.bench import GROUPS, Effort, Failed, Row
 from motionlayer.bench import _layer_load as load
@@ -24,7 +25,7 @@ def test_the_layer_group_has_these_rows() -> None:
     ]
 
 
-@pytest.mark.parametrize("row", GROUPS["layer"], ids=lambda row: row.name)
+@pytest.mark.parametrize("row", thinned(GROUPS["layer"]), ids=lambda row: row.name)
 def test_every_row_gives_a_number(row: Row) -> None:
     assert math.isfinite(row.measure(TINY).value)
 
@@ -47,6 +48,7 @@ def test_a_job_that_ends_while_it_is_measured_is_a_failure() -> None:
             load.require_jobs(layered)
 
 
+@pytest.mark.slow
 def test_the_namespaces_take_turns() -> None:
     row = next(row for row in GROUPS["layer"] if row.name == "layer.spread")
     assert row.measure(TINY).note.count(",") == PHASES - 1

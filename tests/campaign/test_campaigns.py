@@ -22,19 +22,19 @@ from motionlayer.event import Kind
 from motionlayer.nc import Axis, BufferMode
 from motionlayer.profile import Profile
 from motionlayer.record import Trace
-from tests.effort import examples, quick
+from tests.effort import examples, quick, thinned
 
 Operator = Callable[[np.random.Generator, Trace], Damage | None]
 SEED = 1
 SLOW = MODE == "plain"
 SHORT = {
     "planning": BLOCK // 20 if SLOW else examples(4 * BLOCK),
-    "life": 2 if SLOW else examples(40),
+    "life": 2 if SLOW else 5 if quick() else 40,
     "blocks": 1 if SLOW or quick() else 3,
-    "contract": 1 if SLOW else examples(20),
+    "contract": 1 if SLOW else 2 if quick() else 20,
     "mutation": 5 if SLOW else examples(4 * BATCH),
-    "ads": 200,
-    "siege": 10,
+    "ads": examples(200),
+    "siege": examples(10),
 }
 
 
@@ -134,6 +134,7 @@ def test_every_call_is_known() -> None:
         assert (given is None) == (name in {"override", "fault"})
 
 
+@pytest.mark.slow
 def test_lives_hold_every_call() -> None:
     """Accepted, not only tried; in every buffer mode, and with every way to end a hold."""
     texts: set[str] = set()
@@ -192,7 +193,7 @@ def test_a_trace_that_is_not_valid_before_is_a_failure(monkeypatch: pytest.Monke
 ONCE = sorted((Path(__file__).parent / "lives").glob("*.json"))
 
 
-@pytest.mark.parametrize("file", ONCE, ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", thinned(ONCE, 3), ids=lambda file: file.stem)
 def test_lives_that_broke_a_rule_once(file: Path) -> None:
     """Kept as they were, whatever the campaign draws now.
 

@@ -120,6 +120,7 @@ def test_the_command_counts_and_goes_on(tmp_path: Path) -> None:
     assert "planning: 300 states, seed 3: 0 failures" in again.stdout
 
 
+@pytest.mark.slow
 def test_the_command_repeats_one_case(tmp_path: Path) -> None:
     done = command(tmp_path, "--name", "planning", "--case", "17")
     assert done.returncode == 0, done.stderr

@@ -204,7 +204,7 @@ def test_values_of_a_run_are_watched_until_it_is_interrupted(served: Path) -> No
         assert f"more than {SHOWN} values are not shown; name members" in many.stderr
 
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=30)
+        _, errors = process.communicate(timeout=120)
         assert process.returncode == ExitCode.INTERRUPTED, errors
 
 

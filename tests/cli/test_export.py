@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from motionlayer.cli import ExitCode
-from motionlayer.iec.export import Declarations, c_header, structured_text, twincat
+from motionlayer.iec.export import Declarations, c_header, csharp, structured_text, twincat
 from motionlayer.machine import Machine, Simulation, interface
 from tests.cli.support import MACHINE, call
 
@@ -82,6 +82,49 @@ def test_a_control_side_has_the_same_interface(machine: Path) -> None:
     done = call("export", machine, "--st")
     assert done.exit_code == ExitCode.OK
     assert "Ctrl AT %Q* : ARRAY [1..2] OF ST_AXIS_CTRL;" in done.stdout
+
+
+@pytest.mark.parametrize("asked", ["", "switches = true\n"])
+def test_limit_switches_are_an_image_where_that_is_asked_for(machine: Path, asked: str) -> None:
+    machine.write_text(f'format = 1\nname = "plc"\n[control]\naxes = ["X"]\n{asked}', encoding="utf-8")
+    place = " AT %Q*" if asked else ""
+    text = call("export", machine, "--st").stdout
+    assert f"\n    LimitSwitches{place} : ARRAY [1..1] OF ST_AXIS_LIMIT_SWITCHES;" in text
+    assert ("sSymbol := 'GVL_AXIS.LimitSwitches'" in text) is bool(asked)
+
+
+def test_what_holds_switches_on_the_motion_side_is_an_image_on_the_other(layered: Path) -> None:
+    layered.write_text(MACHINE + LAYER + '[layer.map.all]\ngroup = "axis"\nswitches = true\n', encoding="utf-8")
+    assert "\n    LimitSwitches AT %Q* : ARRAY [1..1] OF" in call("export", layered, "--st").stdout
+
+
+def test_references_begin_with_those_of_the_machine_file(machine: Path) -> None:
+    """A controller that writes the whole variable changes none of them."""
+    two = MACHINE + MACHINE[MACHINE.index("[axis.") :].replace("[axis.X", "[axis.Y")
+    machine.write_text(f"{two}[axis.Y.home]\nposition = -12.5\n{LAYER}", encoding="utf-8")
+    told = declared(machine)
+    text = structured_text(told)["motion_layer.st"]
+    starts = ", ".join(f"(stHomingParam := (Position := {one}))" for one in (0.0, -12.5))
+    assert f"    HomeParameter AT %Q* : ARRAY [1..2] OF ST_HOMING := [{starts}];" in text
+    (header,) = c_header(told).values()
+    assert header.count(".Position = -12.5, .Options = ST_HomingOptions_INIT, .UseLimitMin = 1, .UseLimitMax = 1") == 1
+    (source,) = csharp(told).values()
+    assert "public static ST_HOMING[] CreateHomeParameter() => new ST_HOMING[] {" in source
+    with Simulation(Machine.load(machine)) as run:
+        assert [run.symbols.read(f"GVL_AXIS.HomeParameter[{at}].stHomingParam.Position") for at in (1, 2)] == [0, -12.5]
+
+
+def test_references_at_zero_need_no_start_values(layered: Path) -> None:
+    assert (
+        "    HomeParameter AT %Q* : ARRAY [1..1] OF ST_HOMING;" in structured_text(declared(layered))["motion_layer.st"]
+    )
+
+
+def test_types_have_the_names_of_the_slides_too(layered: Path) -> None:
+    text = structured_text(declared(layered))["motion_layer.st"]
+    for name, other in (("ST_CTRL_NCI", "ST_NCI_CTRL"), ("ST_STATE_NCI", "ST_NCI_STATE")):
+        assert f"\nTYPE {name} : {other};\nEND_TYPE\n" in text
+        assert text.index(f"TYPE {other} :") < text.index(f"TYPE {name} :")
 
 
 NAMESPACE = """

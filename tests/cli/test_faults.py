@@ -14,6 +14,7 @@ from motionlayer.cli import ExitCode
 from motionlayer.cli._main import _Group
 from motionlayer.record import Trace
 from tests.cli.support import MACHINE, SOURCE, call, program, python, recorded
+from tests.effort import thinned
 
 CHATTY = """\
 async def main(run):
@@ -164,7 +165,7 @@ def test_an_incomplete_trace_is_judged_but_not_passed_over(machine: Path) -> Non
     assert done.stderr == ("Warning: cut.trace is incomplete, its writer was cut short; the page shows what was read\n")
 
 
-@pytest.mark.parametrize("option", [[], ["--partial"]])
+@pytest.mark.parametrize("option", thinned([[], ["--partial"]], 2))
 @pytest.mark.parametrize("kind", ["flipped", "zeroed", "followed"])
 def test_a_damaged_trace_is_refused(machine: Path, kind: str, option: list[str]) -> None:
     call("run", machine, *program("shuttle"), "--time", 5, "--trace", "run.trace")

@@ -39,6 +39,7 @@ def test_what_is_commented_out_becomes_a_machine_that_clients_reach(tmp_path: Pa
     assert (description.ads is not None, description.log is not None) == (True, True)
 
 
+@pytest.mark.slow
 def test_the_new_program_has_correct_types(tmp_path: Path) -> None:
     call("new", "cell", "--folder", tmp_path)
     checker = [sys.executable, "-m", "mypy", "--strict", "--no-error-summary", str(tmp_path / "cell" / "program.py")]

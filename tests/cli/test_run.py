@@ -109,6 +109,7 @@ def test_wrong_options(machine: Path, arguments: list[str], said: str) -> None:
     assert PROGRAMS.read_bytes() == before
 
 
+@pytest.mark.slow
 def test_the_hash_depends_on_nothing_but_the_run(machine: Path) -> None:
     """Neither on hash seeds, nor on the mode of the kernels, nor on what is recorded."""
     run = ("run", machine, *program("main"), "--time", 0.2)

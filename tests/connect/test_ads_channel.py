@@ -81,6 +81,18 @@ def test_waiting_ends_in_time() -> None:
     with pytest.raises(TimeoutError, match=r"no message within 0\.01 s"):
         two.wait(0.01)
     one.send(Message.PORT, b"4711")
-    assert two.wait(1.0).data == b"4711"
+    assert two.wait(60.0).data == b"4711"
     assert two.receive() == []
+    closed(one, two)
+
+
+def test_after_a_full_piece_more_is_expected_until_nothing_is_left() -> None:
+    one, two = pair()
+    head = 9
+    size = PIECE - head
+    one._socket.setblocking(True)
+    one._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 4 * PIECE)
+    one.send(Message.TOLD, bytes(size))
+    assert [len(message.data) for message in two.receive()] == [size]
+    assert (two.more, two.receive(), two.more) == (True, [], False)
     closed(one, two)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from motionlayer.connect.ads import AdsError, Code, Tree, placed, tree_of
 from motionlayer.connect.ads._entries import LONGEST, symbol_entry, type_entry
-from motionlayer.connect.ads._tree import Root, TypeNode
+from motionlayer.connect.ads._nodes import Root, TypeNode
 from motionlayer.iec import (
     DINT,
     INT,

@@ -14,6 +14,7 @@ from motionlayer.command import ErrorId
 from motionlayer.nc import Axis, BufferMode, StateDWord
 from motionlayer.verify import assert_valid
 from tests.connect.ads_clients import Paced, connected
+from tests.effort import thinned
 from tests.machines import LINEAR
 
 PARAMETERS, STATE, FUNCTIONS, CYCLIC = 0x4000, 0x4100, 0x4200, 0x4300
@@ -212,13 +213,16 @@ def test_the_override_slows_a_motion_down(nc: Nc) -> None:
 
 @pytest.mark.parametrize(
     ("offset", "kind", "values"),
-    [
-        (STOP, "", ()),
-        (CLEAR, "", ()),
-        (HALT, "2d", (3000.0, 5e4)),
-        (EMERGENCY_STOP, "2d", (0.0, 0.0)),
-        (EMERGENCY_STOP, "2d", (6000.0, 1e5)),
-    ],
+    thinned(
+        [
+            (STOP, "", ()),
+            (CLEAR, "", ()),
+            (HALT, "2d", (3000.0, 5e4)),
+            (EMERGENCY_STOP, "2d", (0.0, 0.0)),
+            (EMERGENCY_STOP, "2d", (6000.0, 1e5)),
+        ],
+        2,
+    ),
 )
 def test_a_motion_is_stopped(nc: Nc, offset: int, kind: str, values: tuple[float, ...]) -> None:
     nc.on()

@@ -1,8 +1,10 @@
 """pyads as it is, against a run: all types, sums, notifications, several clients, a connection that comes back."""
 
+import contextlib
 import ctypes
 import datetime as dt
 import queue
+import socket
 from collections.abc import Iterator
 from typing import Any
 
@@ -118,11 +120,11 @@ def test_notifications_arrive(plc: pyads.Connection, mode: int) -> None:
     plc.write_by_name("GVL.Count", 1, pyads.PLCTYPE_DINT)
     attributes = pyads.NotificationAttrib(4, trans_mode=mode, max_delay=0, cycle_time=5)
     handles = plc.add_device_notification("GVL.Count", attributes, told)
-    assert got.get(timeout=5)[1] == 1
+    assert got.get(timeout=60)[1] == 1
     plc.write_by_name("GVL.Count", 2, pyads.PLCTYPE_DINT)
-    seen = [got.get(timeout=5)]
+    seen = [got.get(timeout=60)]
     while seen[-1][1] != 2:
-        seen.append(got.get(timeout=5))
+        seen.append(got.get(timeout=60))
     plc.del_device_notification(*handles)
     times = [when for when, _ in seen]
     assert times == sorted(times)
@@ -137,6 +139,16 @@ def test_clients_on_one_connection_do_not_disturb_one_another(port: int) -> None
         assert two.read_by_name("GVL.Count", pyads.PLCTYPE_DINT) == 5
         two.close()
         assert one.read_by_name("", pyads.PLCTYPE_DINT, handle=handle) == 5
+
+
+def test_a_client_that_is_opened_long_before_its_first_request_is_answered() -> None:
+    with Simulation(machine(ads={"port": 0, "limits": {"silence": 0.05}})) as run:
+        declare(run.symbols)
+        with Paced(run), connected(run.ads.port) as plc, socket.create_connection(("127.0.0.1", run.ads.port)) as half:
+            half.sendall(b"\0")
+            with contextlib.suppress(ConnectionResetError):
+                assert half.recv(1) == b""  # disconnected, as it says no more: so long has the other one been silent
+            assert plc.read_by_name("GVL.Count", pyads.PLCTYPE_DINT) == 0
 
 
 def test_a_client_comes_back_after_a_restart_of_the_server() -> None:

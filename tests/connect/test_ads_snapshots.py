@@ -1,6 +1,7 @@
 """One answer, one tick: sums, structures and notifications while the run goes on between any two reads."""
 
 import struct
+import tracemalloc
 from typing import Any
 
 import pytest
@@ -120,6 +121,19 @@ def expected_sum(group: int, parts: list[tuple[int, int, int]], found: list[tupl
         data.ljust(0 if group == 0xF084 else size, b"\0") for (_, _, size), (_, data) in zip(parts, found, strict=True)
     ]
     return struct.pack(f"<{len(numbers)}I", *numbers) + b"".join(values)
+
+
+def test_what_a_client_asks_for_once_is_not_kept_for_ever() -> None:
+    talk = Talk(Device())
+    tracemalloc.start()
+    try:
+        before, _ = tracemalloc.get_traced_memory()
+        for start in range(30):  # sums as long as those that are kept, each another one
+            assert talk.read_write(0xF080, 2700, 8, struct.pack("<3I", 0x4040, start, 4) * 2700)[0] == 0
+        grown = tracemalloc.get_traced_memory()[0] - before
+    finally:
+        tracemalloc.stop()
+    assert grown < 3_000_000
 
 
 def run_on(device: Device, ticks: int) -> None:

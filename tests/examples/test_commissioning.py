@@ -33,7 +33,7 @@ def outcome(folder: Path, choice: str) -> subprocess.CompletedProcess[str]:
 
 @pytest.mark.parametrize(
     "choice",
-    ["three or alarm or 0.7", pytest.param("moment", marks=pytest.mark.slow)],
+    ["three or alarm", pytest.param("moment", marks=pytest.mark.slow)],
     ids=["some", "moments"],
 )
 def test_the_control_program_passes_its_tests(choice: str) -> None:
@@ -41,6 +41,7 @@ def test_the_control_program_passes_its_tests(choice: str) -> None:
     assert done.returncode == 0, done.stdout
 
 
+@pytest.mark.slow
 def test_a_mistake_in_the_recovery_is_found(tmp_path: Path) -> None:
     folder = tmp_path / "cutter"
     shutil.copytree(FOLDER, folder, ignore=shutil.ignore_patterns("__pycache__"))

@@ -20,6 +20,7 @@ from motionlayer.fb import (
 )
 from motionlayer.nc import Calibration, ControlDWord, Direction
 from motionlayer.store import Q
+from tests.effort import thinned
 from tests.machines import SWITCH
 
 from .rig import Rig
@@ -112,7 +113,7 @@ REFERENCES: Final = {
 """Drive positions of the references behind the edge at -50; a program is up to 0.04 late to see one."""
 
 
-@pytest.mark.parametrize("mode", list(E_EncoderReferenceMode))
+@pytest.mark.parametrize("mode", thinned(list(E_EncoderReferenceMode), 2))
 def test_every_reference_mode_finds_its_reference(mode: E_EncoderReferenceMode) -> None:
     rig = Rig(home=SIGNALS)
     home = MC_Home(rig.ref)

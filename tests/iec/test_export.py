@@ -102,6 +102,7 @@ class Foreign(Struct, iec="ST_FOREIGN"):
     foreign = Field("sForeign", STRING(9), "a comment */ of\n two lines", default="ä€?$\n")
 
 
+BEGUN = [{"b2": False, "wsText": "ab", "stInner": {"nNumber": 5}}, {"bLast": True, "eColour": 0, "aWeights": [3, 4.5]}]
 FOREIGN = Declarations("test", [Foreign.type])
 SMALL = Declarations(
     "test",
@@ -114,9 +115,12 @@ SMALL = Declarations(
                 Variable("Out", Array(Outer, (1, 3)), "written", written=True),
                 Variable("In", UINT, "read", written=False),
                 Variable("Symbol", Array(STRING(7), (1, 2)), "neither"),
+                Variable("Begun", Array(Outer, (1, 2)), "begins otherwise", written=True, start=BEGUN),
+                Variable("One", Inner.type, "one object", start={"bFlag": False}),
             ],
         )
     ],
+    aliases={"ST_OTHER_NAME": Outer.type},
 )
 LAYER = control_side(Globals(Sizes(6), Features()), "six axes")
 TOLD = {"small": SMALL, "foreign": FOREIGN, "layer": LAYER}
@@ -149,6 +153,11 @@ def test_structured_text_of_values_and_variables() -> None:
     assert "    Out AT %Q* : ARRAY [1..3] OF ST_OUTER; // written\n" in text
     assert "    In AT %I* : UINT; // read\n" in text
     assert "    Symbol : ARRAY [1..2] OF STRING(7); // neither\n" in text
+    first = '(b2 := FALSE, wsText := "ab", stInner := (nNumber := 5))'
+    second = "(eColour := E_COLOUR.COLOUR_RED, aWeights := [3.0, 4.5], bLast := TRUE)"
+    assert f"    Begun AT %Q* : ARRAY [1..2] OF ST_OUTER := [{first}, {second}]; // begins otherwise\n" in text
+    assert "    One : ST_INNER := (bFlag := FALSE); // one object\n" in text
+    assert "TYPE ST_OTHER_NAME : ST_OUTER;\nEND_TYPE\n" in text
 
 
 def test_structured_text_of_texts_and_comments_that_are_not_plain() -> None:
@@ -261,6 +270,32 @@ def assign(kind: Any, path: str, value: Any) -> str:
     return f"{path} = {int(value)}{suffix};"
 
 
+def begun() -> list[bytes]:
+    """Return the start values of `Begun` and `One` as the types make them."""
+    first, second, one = Outer(), Outer(), Inner(flag=False)
+    first.second, first.wide, first.inner.number = False, "ab", 5
+    second.last, second.colour, second.weights = True, Colour.RED, [3, 4.5]
+    return [bytes(first) + bytes(second), bytes(one)]
+
+
+def test_c_has_the_start_values_of_variables_and_other_names_of_types(tmp_path: Path) -> None:
+    for file, text in c_header(SMALL).items():
+        (tmp_path / file).write_text(text, encoding="utf-8")
+    lines = ["  ST_OTHER_NAME other; (void)sizeof(char[sizeof other == sizeof(ST_OUTER) ? 1 : -1]);"]
+    lines += [f"  static const GVL_{name} v{name} = GVL_{name}_INIT;" for name in ("Begun", "One")]
+    lines += [f"  show(&v{name}, sizeof v{name});" for name in ("Begun", "One")]
+    assert compiled("\n".join(lines), tmp_path) == begun()
+
+
+def compiled(body: str, folder: Path) -> list[bytes]:
+    """Return what a program with these statements shows."""
+    source, program = folder / "main.c", folder / "main"
+    source.write_text(PROGRAM.replace("@", body), encoding="utf-8")
+    compile_it("c", "-std=c11", "-o", str(program), str(source))
+    shown = subprocess.run([str(program)], check=True, timeout=120, capture_output=True, text=True).stdout.split()
+    return [bytes.fromhex(one) for one in shown]
+
+
 @pytest.mark.parametrize("name", TOLD)
 def test_c_compiles_and_has_the_same_bytes(name: str, tmp_path: Path) -> None:
     """Offsets are checked by the compiler; start values and every member by bytes that the program prints."""
@@ -278,12 +313,7 @@ def test_c_compiles_and_has_the_same_bytes(name: str, tmp_path: Path) -> None:
         lines += [f"{{ {kind.name} v; memset(&v, 0, sizeof v); {{ {kind.name} s = {kind.name}_INIT; (void)s; }}"]
         lines += [f"  {{ static const {kind.name} s = {kind.name}_INIT; show(&s, sizeof s); }}"]
         lines += [*(f"  {line}" for line in written), "  show(&v, sizeof v); }"]
-    source = tmp_path / "main.c"
-    source.write_text(PROGRAM.replace("@", "\n".join(lines)), encoding="utf-8")
-    program = tmp_path / "main"
-    compile_it("c", "-std=c11", "-o", str(program), str(source))
-    shown = subprocess.run([str(program)], check=True, timeout=30, capture_output=True, text=True).stdout.split()
-    assert [bytes.fromhex(one) for one in shown] == expected
+    assert compiled("\n".join(lines), tmp_path) == expected
 
 
 def compile_it(language: str, *arguments: str) -> None:
@@ -336,7 +366,7 @@ def test_c_splits_a_state(tmp_path: Path) -> None:
     head = '#include <stdio.h>\n#include "motion_layer.h"\n'
     source.write_text(f"{head}int main(void)\n{{\n{calls}    return 0;\n}}\n", encoding="utf-8")
     compile_it("c", "-std=c11", "-o", str(program), str(source))
-    shown = subprocess.run([str(program)], check=True, timeout=30, capture_output=True, text=True).stdout.splitlines()
+    shown = subprocess.run([str(program)], check=True, timeout=120, capture_output=True, text=True).stdout.splitlines()
     assert [tuple(map(int, line.split())) for line in shown] == list(STATES.values())
 
 
@@ -351,7 +381,7 @@ def test_csharp_splits_a_state(tmp_path: Path) -> None:
     (tmp_path / "Show.cs").write_text(program, encoding="utf-8")
     run = [MCS, "-langversion:7", "-out:show.exe", "MotionLayer.cs", "Show.cs"]
     subprocess.run(run, check=True, timeout=120, cwd=tmp_path)
-    lines = subprocess.run([MONO, "show.exe"], check=True, timeout=60, cwd=tmp_path, capture_output=True, text=True)
+    lines = subprocess.run([MONO, "show.exe"], check=True, timeout=120, cwd=tmp_path, capture_output=True, text=True)
     assert [tuple(map(int, line.split())) for line in lines.stdout.splitlines()] == list(STATES.values())
 
 
@@ -363,11 +393,16 @@ def test_csharp_marshals_to_the_same_bytes(name: str, tmp_path: Path) -> None:
         (tmp_path / file).write_text(text, encoding="utf-8")
     shown = [kind for kind in told.structs() if not kind.union]
     calls = "".join(f"        Show({kind.name}.Create());\n" for kind in shown)
+    expected = [bytes(kind.initial()) for kind in shown]
+    if told is SMALL:
+        calls += "        foreach (var one in GVL.CreateBegun()) Show(one);\n        Show(GVL.CreateOne());\n"
+        both, one = begun()
+        expected += [both[: Outer.type.size], both[Outer.type.size :], one]
     (tmp_path / "Show.cs").write_text(SHOW.replace("@", calls), encoding="utf-8")
     run = [MCS, "-langversion:7", "-out:show.exe", "MotionLayer.cs", "Show.cs"]
     subprocess.run(run, check=True, timeout=120, cwd=tmp_path)
-    lines = subprocess.run([MONO, "show.exe"], check=True, timeout=60, cwd=tmp_path, capture_output=True, text=True)
-    assert [bytes.fromhex(one) for one in lines.stdout.split()] == [bytes(kind.initial()) for kind in shown]
+    lines = subprocess.run([MONO, "show.exe"], check=True, timeout=120, cwd=tmp_path, capture_output=True, text=True)
+    assert [bytes.fromhex(one) for one in lines.stdout.split()] == expected
 
 
 SHOW = """\

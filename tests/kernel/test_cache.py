@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from motionlayer._kernel import _compile
+from tests.effort import thinned
 
 PACKAGE = _compile.PACKAGE
 
@@ -56,15 +57,18 @@ def test_same_sources_have_the_same_folder_wherever_they_lie(sources: Path, own_
 
 @pytest.mark.parametrize(
     "file",
-    [
-        "profile/_kernels.py",
-        "profile/_check.py",
-        "store/_kernels.py",
-        # no kernel in these, but what kernels are made of: constants compiled in, and how they are compiled
-        "profile/_tolerances.py",
-        "store/_layout.py",
-        "_kernel/_compile.py",
-    ],
+    thinned(
+        [
+            "profile/_kernels.py",
+            "profile/_check.py",
+            "store/_kernels.py",
+            # no kernel in these, but what kernels are made of: constants compiled in, and how they are compiled
+            "profile/_tolerances.py",
+            "store/_layout.py",
+            "_kernel/_compile.py",
+        ],
+        3,
+    ),
 )
 def test_change_in_a_source_gives_another_folder(sources: Path, file: str) -> None:
     before = ask(sources)

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from motionlayer.event import Device, Level, device_of
+from tests.effort import examples, thinned
 from tests.layer.message_runs import lines, opened, read, say, started
 
 SIZE = 200
@@ -98,13 +99,14 @@ def test_d38_a_full_list_takes_nothing_more_and_counts_what_is_lost() -> None:
 
 
 def test_the_file_is_complete_after_a_burst_that_no_list_can_hold(tmp_path: Path) -> None:
+    count = examples(100_000)
     with started(tmp_path, level="info") as run:
-        for number in range(100_000):
+        for number in range(count):
             say(run, f"message {number}")
         run.step(20)
-        assert read(run, "MessageMotionLost") == 100_000 - SIZE
+        assert read(run, "MessageMotionLost") == count - SIZE
     texts = [columns[5] for columns in lines(tmp_path) if columns[5].startswith("message ")]
-    assert texts == [f"message {number}" for number in range(100_000)]
+    assert texts == [f"message {number}" for number in range(count)]
     assert run.log.missing == 0
 
 
@@ -119,7 +121,7 @@ OTHERS = {
 }
 
 
-@pytest.mark.parametrize("device", OTHERS)
+@pytest.mark.parametrize("device", thinned(OTHERS, 3))
 def test_what_is_not_of_this_project_fills_a_list_that_nobody_writes(device: int, tmp_path: Path) -> None:
     """Motion-layer 8.2; errors of the mover selector are not counted there."""
     with opened(tmp_path, layer={"test": True, "max_other_message": 3}) as run:

@@ -14,7 +14,7 @@ from motionlayer.bench.campaign._contract_recording import Recording, Rows
 from motionlayer.bench.campaign._contract_states import ended
 from motionlayer.bench.campaign._contract_watch import Segment, Watch, segments, watches
 from motionlayer.event import Event, Kind, Level
-from tests.effort import examples
+from tests.effort import quick
 
 SEED = 11
 
@@ -255,7 +255,7 @@ def test_nothing_is_found_in_what_was_recorded() -> None:
 
 @pytest.mark.parametrize("damage", DAMAGES, ids=lambda damage: damage.__name__)
 def test_every_damage_is_found(damage: Damage) -> None:
-    numbers = range(examples(12))
+    numbers = range(2 if quick() else 12)
     assert [number for number in numbers if not judge(damage(np.random.default_rng(number), recorded()))] == []
 
 

@@ -16,6 +16,7 @@ from motionlayer.command import ErrorId
 from motionlayer.event import Kind
 from motionlayer.layer import AxisCommand
 from motionlayer.verify import assert_valid
+from tests.effort import thinned
 from tests.layer.rig import Rig
 from tests.machines import SWITCH
 
@@ -81,7 +82,7 @@ def hidden(watch: Watch, clearing: int) -> bool:
     return False
 
 
-@pytest.mark.parametrize("clearing", words.CLEARING)
+@pytest.mark.parametrize("clearing", thinned(words.CLEARING, 2))
 def test_an_error_may_be_cleared_by_a_command_that_is_replaced_before_it_shows_its_end(clearing: int) -> None:
     """The oracle held the error for pending, where an error of the axis hid that it was cleared."""
     recording = played(*(replaced(clearing, wait, fault) for wait in range(2, 8) for fault in range(1, 8)))

@@ -14,6 +14,7 @@ from motionlayer import nc
 from motionlayer.iec import Array, Boolean, Enumeration, Integer, Real, Scalar, String, Struct
 from motionlayer.layer import types
 from motionlayer.layer.types import AxisCommand, Progress
+from tests.effort import examples
 
 from .layouts import TABLES
 
@@ -126,7 +127,7 @@ def told_value(kind: Any, text: str) -> object:
 
 @pytest.mark.parametrize("name", TABLES)
 @given(data=st.data())
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 def test_bytes_are_those_of_the_format(name: str, data: st.DataObject) -> None:
     """An object written member by member has the bytes that `struct` packs from the same values."""
     written = STRUCTS[name]()

@@ -22,7 +22,7 @@ OWN = "127.0.0.1.1.1"
 VELOCITY = "GVL_AXIS.Data[1].rSetVelo"
 NOT_PERMITTED, NO_MORE_HANDLES, MACHINE_NOT_FOUND = 1796, 1814, 7
 STOP = 6
-PATIENCE = 20.0
+PATIENCE = 60.0
 
 
 @contextlib.contextmanager
@@ -91,13 +91,13 @@ def test_handles_are_bounded_for_each_of_several_clients_on_one_connection() -> 
 
 
 GRABBING = """
-import sys, time, pyads
+import sys, pyads
 plc = pyads.Connection("127.0.0.1.1.1", 851, sys.argv[1])
 plc.open()
 handles = [plc.get_handle("GVL_AXIS.Data[1].rSetVelo") for _ in range(3)]
 plc.add_device_notification("GVL_AXIS.Data[1].rSetVelo", pyads.NotificationAttrib(8), lambda *_: None)
 print("has them", flush=True)
-time.sleep(60)
+sys.stdin.read()
 """
 
 
@@ -105,7 +105,7 @@ time.sleep(60)
 def test_what_a_client_held_that_was_killed_is_there_for_others() -> None:
     with served(limits={"all_handles": 4, "all_notifications": 1}) as run:
         grabbing = [sys.executable, "-c", GRABBING, f"127.0.0.1:{run.ads.port}"]
-        with subprocess.Popen(grabbing, stdout=subprocess.PIPE, text=True) as process:
+        with subprocess.Popen(grabbing, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
             assert process.stdout is not None
             assert process.stdout.readline() == "has them\n"
             with connected(run.ads.port) as plc:
@@ -142,13 +142,13 @@ def test_hosts_are_let_in_by_name_or_ended_at_once(let_in: bool) -> None:
     try:
         here = own_address()
     except OSError:
-        pytest.skip("this computer has no address beside loopback")
+        pytest.skip("this computer has no address beside loopback, which is always let in")
     hosts = [here] if let_in else ["198.51.100.0/24"]
     with served(host="0.0.0.0", hosts=hosts) as run:  # noqa: S104 - that is what is tested
         plc = pyads.Connection(OWN, 851, f"{here}:{run.ads.port}")
         with contextlib.closing(plc):
             plc.open()
-            plc.set_timeout(2000)
+            plc.set_timeout(60_000 if let_in else 2000)
             if let_in:
                 assert plc.read_state()[0] == 5
             else:

@@ -27,7 +27,7 @@ def control(*axes: str) -> Machine:
     return Machine.from_dict({"format": 1, "name": "control", "control": {"axes": list(axes or "XYZ")}})
 
 
-def wait(condition: Callable[[], bool], seconds: float = 20.0) -> None:
+def wait(condition: Callable[[], bool], seconds: float = 60.0) -> None:
     deadline = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < deadline

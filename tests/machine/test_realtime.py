@@ -291,6 +291,7 @@ def test_with_a_layer_and_without_message_files_the_first_tick_is_no_more_than_a
     assert 0 < len(looked_up) < 10
 
 
+@pytest.mark.slow
 def test_after_the_rehearsal_no_command_loads_a_kernel() -> None:
     """Else the first use of a command would cost some ten milliseconds in the middle of a tick."""
     done = python(str(Path(__file__).with_name("rehearsed.py")))

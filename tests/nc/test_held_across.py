@@ -15,7 +15,7 @@ from motionlayer import Simulation
 from motionlayer.command import ErrorId
 from motionlayer.nc import Axis, AxisCommand, BufferMode
 from motionlayer.verify import assert_valid
-from tests.effort import examples
+from tests.effort import examples, thinned
 from tests.machines import finish, ready
 
 JOINT = 200.0
@@ -70,7 +70,7 @@ def assert_never_turned(run: Simulation) -> None:
 
 
 @pytest.mark.parametrize("follower", FOLLOWERS)
-@pytest.mark.parametrize("ticks", [*RISES, 2, 3, 30, 60])
+@pytest.mark.parametrize("ticks", thinned([*RISES, 2, 3, 30, 60]))
 def test_a_joint_that_a_hold_carries_the_axis_across_is_not_come_back_to(follower: str, ticks: int) -> None:
     run, x, (first, second) = chained(follower, BufferMode.BLENDING_PREVIOUS)
     finish(run, x.passes(JOINT - 1.0))
@@ -199,7 +199,7 @@ def test_a_follower_that_is_commanded_in_the_hold_takes_over_behind_its_joint_to
 
 
 @pytest.mark.parametrize("follower", ["forwards", "backwards"])
-@pytest.mark.parametrize("ticks", RISES)
+@pytest.mark.parametrize("ticks", thinned(RISES, 2))
 def test_a_blending_position_before_the_target_is_met_too(follower: str, ticks: int) -> None:
     """Also where the hold ends between the blending position and the target of the running motion."""
     run, x, (first, second) = chained(follower, BufferMode.BLENDING_LOW, place=180.0)
@@ -212,7 +212,7 @@ def test_a_blending_position_before_the_target_is_met_too(follower: str, ticks: 
 
 
 @pytest.mark.parametrize("before", [0.1, 1.0, 4.0, 10.0, 20.0])
-@pytest.mark.parametrize("ticks", RISES)
+@pytest.mark.parametrize("ticks", thinned(RISES))
 def test_a_continuous_move_is_not_turned_round_for_its_target(before: float, ticks: int) -> None:
     run, x = ready(software_limit_max=None)
     move = x.move_continuous_absolute(JOINT, 150.0, velocity=400.0)

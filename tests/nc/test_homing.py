@@ -7,6 +7,7 @@ from motionlayer.command import ErrorId
 from motionlayer.nc import Axis
 from motionlayer.store import Q
 from motionlayer.verify import assert_valid
+from tests.effort import thinned
 from tests.machines import error_of, finish, play, ready, state_of
 
 
@@ -37,8 +38,8 @@ def drive_position(x: Axis) -> float:
 
 
 @pytest.mark.parametrize("direction", ["negative", "positive"])
-@pytest.mark.parametrize("start", [-90.0, -50.5, -50.0, -49.5, 0.0])
-@pytest.mark.parametrize("velocity", [0.005, 1.0, 40.0, 500.0])
+@pytest.mark.parametrize("start", thinned([-90.0, -50.5, -50.0, -49.5, 0.0], 2))
+@pytest.mark.parametrize("velocity", [pytest.param(0.005, marks=pytest.mark.slow), 1.0, 40.0, 500.0])
 def test_the_edge_of_the_switch_becomes_the_reference(direction: str, start: float, velocity: float) -> None:
     """Whatever the side of the start and the direction: the drive position -50 is called 7 in the end."""
     if velocity < 1.0 and abs(start + 50.0) > 0.1:

@@ -9,6 +9,7 @@ import pytest
 from motionlayer import AxisState
 from motionlayer.command import ErrorId
 from motionlayer.nc import Axis, AxisCommand, Direction
+from tests.effort import thinned
 from tests.machines import (
     PER_TICK,
     assert_smooth,
@@ -111,7 +112,7 @@ def test_an_aborted_move_has_no_end_time() -> None:
     assert move.remaining_time == 0.0
 
 
-@pytest.mark.parametrize("tick", PHASES)
+@pytest.mark.parametrize("tick", thinned(PHASES, 2))
 @pytest.mark.parametrize("goal", [-90.0, 0.0, 150.0, 300.0, 390.0])
 def test_the_target_can_change_in_every_phase(tick: int, goal: float) -> None:
     run, x = ready()
@@ -126,7 +127,7 @@ def test_the_target_can_change_in_every_phase(tick: int, goal: float) -> None:
     assert x.set_position == goal
 
 
-@pytest.mark.parametrize("tick", PHASES)
+@pytest.mark.parametrize("tick", thinned(PHASES, 2))
 @pytest.mark.parametrize(
     "dynamics",
     [

@@ -5,12 +5,13 @@ import pytest
 
 from motionlayer import AxisState
 from motionlayer.verify import assert_valid
+from tests.effort import thinned
 from tests.machines import assert_smooth, finish, follow, ready
 
 PHASES = [0, 1, 20, 60, 100, 300, 650, 680, 720, 745]
 
 
-@pytest.mark.parametrize("tick", PHASES)
+@pytest.mark.parametrize("tick", thinned(PHASES, 2))
 @pytest.mark.parametrize("factor", [0.0, 0.01, 0.5, 1.0])
 def test_in_every_phase_of_a_move_the_target_is_still_reached(tick: int, factor: float) -> None:
     run, x = ready()

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from motionlayer.record import _encode
 from motionlayer.record._encode import RowEncoder, quantise
 from motionlayer.record._rows import RowBlock
+from tests.effort import examples
 
 from .samples import Floats
 
@@ -44,7 +45,7 @@ def encoded(block: Floats, resolution: Floats, first: int = 5) -> bytes:
     return payload
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(seed=st.integers(0, 999), ticks=st.integers(1, 40), kinds=st.lists(st.sampled_from(KINDS), max_size=12))
 @pytest.mark.parametrize("batch", [1, 7, 64, 1 << 14])
 def test_the_size_of_a_batch_changes_nothing(batch: int, seed: int, ticks: int, kinds: list[str]) -> None:

@@ -41,6 +41,6 @@ def test_a_pipe_has_no_lock(tmp_path: Path) -> None:
     reader = threading.Thread(target=lambda: read.append(path.read_bytes()))
     reader.start()
     write(np.zeros((2, 1)), ["X"], path)
-    reader.join(timeout=10.0)
+    reader.join(timeout=60.0)
     (tmp_path / "run.trace").write_bytes(read[0])
     assert Trace.load(tmp_path / "run.trace").complete

@@ -28,6 +28,7 @@ from motionlayer.record.plot._series import (
     speed_along,
     state_runs,
 )
+from tests.effort import examples
 
 from .samples import Floats, header, plan
 
@@ -41,7 +42,7 @@ def trace_of(columns: dict[str, list[float]], **other: Any) -> Trace:
     return Trace.from_chunks(writer.chunks)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(values=VALUES, points=st.integers(2, 200))
 def test_thinning_keeps_ends_and_extremes(values: Floats, points: int) -> None:
     chosen = thin(values, points)
@@ -51,7 +52,7 @@ def test_thinning_keeps_ends_and_extremes(values: Floats, points: int) -> None:
     assert len(chosen) <= max(points, 2) + 4
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 @given(
     values=arrays.arrays(np.float64, st.integers(1, 200), elements=st.integers(-9, 9)), tolerance=st.floats(0.0, 5.0)
 )
@@ -132,7 +133,7 @@ def test_the_charts_open_on_everything_if_there_are_few_moves() -> None:
     assert opened([], [5.0] * 20_000) == pytest.approx((0.0, 19.999))
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=examples(50), deadline=None)
 @given(values=arrays.arrays(np.float64, st.integers(1, 300), elements=st.sampled_from([0.0, 1.0, 2.0])))
 def test_steps_can_be_drawn_from_their_changes(values: Floats) -> None:
     chosen = steps(values, 1000)

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from motionlayer.event import Event, Input, Kind, Level
 from motionlayer.record import Recorder, Signal, Trace, TraceError
+from tests.effort import examples
 
 from .samples import Floats, event, plan, received
 
@@ -36,7 +37,7 @@ def record(values: Floats, chosen: list[Signal], path: Path | None = None, event
     return recorder
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(
     indices=st.lists(st.integers(0, ROWS * COLUMNS - 1), unique=True, min_size=1),
     block_ticks=st.integers(1, 70),
@@ -55,7 +56,7 @@ def test_what_is_recorded_is_what_was_there(indices: list[int], block_ticks: int
     assert bool(trace.hash) == hashing
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(indices=st.lists(st.integers(0, ROWS * COLUMNS - 1), unique=True), block_ticks=st.integers(1, 70))
 def test_the_hash_knows_neither_blocks_nor_signals(indices: list[int], block_ticks: int) -> None:
     values = tables()

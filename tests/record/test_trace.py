@@ -10,6 +10,7 @@ from hypothesis.extra import numpy as arrays
 from motionlayer.event import Input
 from motionlayer.record import Gap, Plan, Signal, Trace, TraceError, TraceWriter
 from motionlayer.record._container import CHUNK_HEAD
+from tests.effort import examples
 
 from .samples import Floats, event, gantry, header, plan, received, write
 
@@ -23,7 +24,7 @@ def bits(trace: Trace) -> list[bytes]:
     return [trace[name].tobytes() for name in trace]
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(block=BLOCKS, size=st.integers(1, 50))
 def test_lossless_columns_come_back_bit_for_bit(block: Floats, size: int) -> None:
     trace = Trace.from_chunks(write(block, NAMES, size=size).chunks)
@@ -33,7 +34,7 @@ def test_lossless_columns_come_back_bit_for_bit(block: Floats, size: int) -> Non
     assert trace.hash == "ab" * 16
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(
     block=BLOCKS,
     size=st.integers(1, 50),
@@ -50,7 +51,7 @@ def test_saving_loses_nothing(
     assert bits(loaded) == bits(trace)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(
     steps=arrays.arrays(np.float64, st.tuples(st.integers(1, 60), st.just(1)), elements=st.floats(-1e9, 1e9)),
     resolution=st.floats(1e-9, 10.0),
@@ -105,7 +106,7 @@ def test_plans_events_inputs_and_gaps_come_back() -> None:
     assert trace.gaps == tuple(Gap(n, 0, 2) for n in (0, 7, 14))
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(tick=st.integers(-(2**63), 2**63 - 1), channel=st.text(max_size=20), payload=st.binary(max_size=300))
 def test_inputs_are_any_bytes_on_any_channel(tick: int, channel: str, payload: bytes) -> None:
     writer = TraceWriter(None, header(["X"]))
@@ -264,7 +265,7 @@ def test_nothing_is_written_where_nothing_can_be(tmp_path: Path) -> None:
         TraceWriter(tmp_path / "nowhere" / "x.trace", header(["X"]))
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(data=st.recursive(st.none() | st.floats() | st.text(), lambda inner: st.dictionaries(st.text(), inner)))
 def test_the_header_is_kept_as_json_says(data: object) -> None:
     trace = Trace.from_chunks(TraceWriter(None, header(["X"], machine=data)).chunks)

@@ -257,9 +257,9 @@ def test_closing_beside_a_thread_that_posts_leaves_nobody_waiting() -> None:
                     started.set()
 
         (thread,) = in_threads(work)
-        started.wait(10.0)
+        started.wait(60.0)
         box.close()
-        thread.join(10.0)
+        thread.join(60.0)
         assert len(receipts) == 300
         assert all(receipt.settled for receipt in receipts)
 
@@ -312,9 +312,9 @@ def test_another_thread_waits_while_a_program_runs() -> None:
 
     async def program() -> None:
         (thread,) = in_threads(client)
-        assert begun.wait(10.0)  # it waits, or will: in this very tick
+        assert begun.wait(60.0)  # it waits, or will: in this very tick
         await run.sleep(0.01)
-        thread.join(10.0)
+        thread.join(60.0)
 
     run.run(program(), time=1.0)
     assert ticks == [1]

@@ -176,7 +176,7 @@ def test_a_stuck_program_in_another_thread() -> None:
     found: list[ProgramStuck] = []
     thread = threading.Thread(target=lambda: found.append(stuck_in(run)))
     thread.start()
-    thread.join(20.0)
+    thread.join(60.0)
     assert not thread.is_alive()
     check_stuck(run, found[0])
 

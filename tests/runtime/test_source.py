@@ -81,6 +81,6 @@ def test_who_waits_at_a_gate_is_woken_when_it_opens() -> None:
     begin = time.perf_counter()
     gate.open(1)
     assert gate.wait()
-    assert time.perf_counter() - begin < 5.0
+    assert time.perf_counter() - begin < 60.0
     assert gate.take(3) == 1
     assert gate.closed

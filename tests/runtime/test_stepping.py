@@ -186,7 +186,7 @@ def running(run: SteppedRun) -> Iterator[Callable[[], int]]:
         """Two inputs that are applied one after the other before the same tick."""
         first = second = -2
         while first != second:
-            first, second = (run.areas["pulse"].post(b"x").wait(10.0) for _ in range(2))
+            first, second = (run.areas["pulse"].post(b"x").wait(60.0) for _ in range(2))
         return run.tick
 
     run.pause()
@@ -196,7 +196,7 @@ def running(run: SteppedRun) -> Iterator[Callable[[], int]]:
     finally:
         run.stop("over")
         run.resume()
-        thread.join(10.0)
+        thread.join(60.0)
         assert not thread.is_alive()
 
 
@@ -207,13 +207,13 @@ def test_a_paused_run_stands_takes_inputs_and_shows_them() -> None:
     with running(run) as standing:
         assert standing() == 0
         for number in range(3):
-            assert data.post(bytes([number])).wait(10.0) == 0
+            assert data.post(bytes([number])).wait(60.0) == 0
             assert data.read_with_tick() == (-1, bytes([number]))
         run.resume(5)
         while not run.paused:
             pass
         assert standing() == 5
-        data.post(b"!").wait(10.0)
+        data.post(b"!").wait(60.0)
         assert data.read_with_tick() == (4, b"!")
         assert run.paused
 
@@ -231,7 +231,7 @@ def test_resume_lets_exactly_so_many_ticks_through() -> None:
             assert standing() == tick
         run.resume()
         assert not run.paused
-        run.areas["pulse"].post(b"x").wait(10.0)
+        run.areas["pulse"].post(b"x").wait(60.0)
         run.pause()
         assert standing() > tick
 

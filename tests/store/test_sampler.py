@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from motionlayer.store import Ended, Q, Store
+from tests.effort import examples
 
 from .exact import CYCLE, DT, Piece, State, after, at, profile, table
 
@@ -31,7 +32,7 @@ def values(store: Store, column: int) -> tuple[float, float, float]:
     return p, v, a
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(150), deadline=None)
 @given(profiles(), offsets, st.integers(0, 10**7), st.lists(st.integers(1, 3), min_size=1, max_size=40))
 def test_values_and_ends_are_exact(pieces: list[Piece], offset: Fraction, begin: int, steps: list[int]) -> None:
     store = Store(3, dt=DT, max_pieces=9)
@@ -50,7 +51,7 @@ def test_values_and_ends_are_exact(pieces: list[Piece], offset: Fraction, begin:
     assert values(store, 0) == values(store, 2) == (0.0, 0.0, 0.0)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=examples(50), deadline=None)
 @given(profiles(), offsets)
 def test_set_jerk_is_the_mean_over_the_cycle(pieces: list[Piece], offset: Fraction) -> None:
     store = Store(1, dt=DT, max_pieces=9)

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from motionlayer.profile import MAX_PIECES, Limits, plan_position
 from motionlayer.runtime.copying import Copies
 from motionlayer.store import Ended, Q, Store, Watch
+from tests.effort import examples
 
 from .exact import DT
 
@@ -142,7 +143,7 @@ def test_the_end_of_a_profile_that_a_watch_has_replaced_is_not_that_of_the_new_o
     assert ended == [(8, 1), (12, 0)]
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=examples(50), deadline=None)
 @given(st.integers(1, 999), st.booleans())
 def test_watch_finds_the_time_on_a_curve(share: int, back: bool) -> None:
     way = -5.0 if back else 5.0

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from motionlayer.event import Event, Kind, Level
 from motionlayer.record import Trace
 from motionlayer.verify import assert_valid, verify
-from tests.effort import examples
+from tests.effort import examples, thinned
 
 from .bench import CONTINUOUS, DISABLED, DISCRETE, ERRORSTOP, HOMING, STANDSTILL, STOPPING, Bench, changed
 from .planner import to_position
@@ -38,7 +38,7 @@ def test_a_doubled_event_is_found(index: int) -> None:
 
 
 @pytest.mark.parametrize("index", EVENTS)
-@pytest.mark.parametrize("kind", list(Kind))
+@pytest.mark.parametrize("kind", thinned(list(Kind), 2))
 def test_an_event_of_another_kind_is_found(index: int, kind: Kind) -> None:
     trace, event = recorded("mm"), recorded("mm").events[index]
     ends = {Kind.DONE, Kind.ABORTED, Kind.ERROR}

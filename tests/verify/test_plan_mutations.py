@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from motionlayer.record import Plan, Trace
 from motionlayer.verify import verify
-from tests.effort import examples
+from tests.effort import examples, thinned
 
 from .bench import changed
 from .scenarios import recorded
@@ -29,7 +29,7 @@ def _rules(trace: Trace) -> set[str]:
 
 @pytest.mark.parametrize("limit", LIMITS)
 @pytest.mark.parametrize("factor", [0.5, 1.0 - 1e-12, 1.0 + 1e-12, 2.0])
-@pytest.mark.parametrize("index", range(12))
+@pytest.mark.parametrize("index", thinned(range(12), 3))
 def test_a_changed_limit_is_found(limit: str, factor: float, index: int) -> None:
     trace = recorded("mm")
     plan = trace.plans[index]

@@ -22,11 +22,11 @@ from motionlayer.runtime import Program
 T = TypeVar("T")
 
 AXES: Final = 64
-SETTLING: Final = 0.5
-"""Seconds after which a run has begun, and between two looks whether its axes move."""
+LOOK: Final = 0.1
+"""Seconds between two looks whether a run lets clients in, and whether its axes move."""
 
-STARTING: Final = 30.0
-"""Seconds within which they must."""
+STARTING: Final = 120.0
+"""Seconds within which they must; what is needed may have to be compiled, on a computer that has more to do."""
 
 CLIENT: Final = Path(__file__).with_name("_ads_client.py")
 READER: Final = Path(__file__).with_name("_ads_reader.py")
@@ -77,11 +77,7 @@ def moving(run: RealTime, act: Callable[[], T]) -> T:
     programs.append(run.start(_show_ticks(run), "clock"))
 
     def settled() -> T:
-        end = time.monotonic() + STARTING
-        while not all(axis.set_velocity > 0.0 for axis in run.axes.values()):
-            if time.monotonic() > end:
-                raise Failed(f"the axes do not move within {STARTING:g} s")
-            time.sleep(SETTLING)
+        _wait_until(lambda: all(axis.set_velocity > 0.0 for axis in run.axes.values()), "the axes do not move")
         return act()
 
     return _beside(run, settled, programs)
@@ -91,7 +87,7 @@ def paused(run: RealTime, act: Callable[[], T]) -> T:
     """Return what `act` does in another thread while a run is held up."""
 
     def hold_up() -> T:
-        time.sleep(SETTLING)
+        _wait_until(lambda: run.ads.begun, "the server lets nobody in")
         run.pause()
         try:
             return act()
@@ -99,6 +95,15 @@ def paused(run: RealTime, act: Callable[[], T]) -> T:
             run.resume()
 
     return _beside(run, hold_up, ())
+
+
+def _wait_until(holds: Callable[[], bool], else_: str) -> None:
+    """Wait for a condition, or raise `Failed` with what is the case else."""
+    end = time.monotonic() + STARTING
+    while not holds():
+        if time.monotonic() > end:
+            raise Failed(f"{else_} within {STARTING:g} s")
+        time.sleep(LOOK)
 
 
 def _beside(run: RealTime, act: Callable[[], T], programs: Iterable[Program]) -> T:

@@ -1,11 +1,10 @@
 """The reader of the rows `ads`: takes notifications from bare sockets, in a process of its own, and counts them.
 
 Reads its work as JSON from stdin: `port`, `clients`, `notifications` of each, `cycle` and `duration` in seconds, and
-`every`, the ticks of the cycle. Prints
-the samples that came, those that are missing between them, and the notifications that never came or came no more.
-What is missing is told by ticks, not by time stamps: a run that the computer has held up goes on later, and no tick of
-it is lost. The first number that a client watches shows the tick. A client of the usual kind would spend its time on
-callbacks, and be what is measured.
+`every`, the ticks of the cycle. Prints the samples that came, those that are missing between them, and the
+notifications that never came or came no more. What is missing is told by ticks, not by time stamps: a run that the
+computer has held up goes on later, and no tick of it is lost. The first number that a client watches shows the tick. A
+client of the usual kind would spend its time on callbacks, and be what is measured.
 """
 
 import itertools

@@ -71,8 +71,6 @@ class AxisNamespace:
         ]
         self.startup = StartUp(self.controllers, variables.ctrl, e_init)
         self.selector = Selector(ports, variables.selector_ctrl, variables.selector_state, waits)
-        for port in ports:  # until a client says other
-            variables.homing[port.index].parameters.position = port.ref.axis.config.home.position
         self._active = list(self.controllers)
         self._awake = bytearray([1]) * len(self.controllers)
 

@@ -1,10 +1,11 @@
 """`GlobalList`: variables that share a namespace, with what a symbol and a control side are told of them."""
 
 import enum
+from collections.abc import Collection
 from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 from motionlayer.iec import InputArray, OutputArray, SymbolTable
-from motionlayer.iec.export import Constant, Variable
+from motionlayer.iec.export import Constant, Start, Variable
 
 AnyVariable: TypeAlias = InputArray[Any] | OutputArray[Any]
 V = TypeVar("V", bound=AnyVariable)
@@ -18,7 +19,7 @@ class Reach(enum.Enum):
     READ_IMAGE = "read image"
     """It reads an image, although clients may write the variable by symbol."""
     SYMBOL = "symbol"
-    """By symbol alone."""
+    """By symbol, or by an image that a map has been asked for."""
     NOT = "not"
     """Not at all: the variable is for the NC or for terminals of the motion side."""
 
@@ -31,18 +32,19 @@ class Entry(NamedTuple):
         comment: what it is.
         aliases: other names of the same, with their namespaces.
         reach: how a control side reaches it.
+        start: start values unlike those of its type.
     """
 
     variable: AnyVariable
     comment: str
     aliases: tuple[str, ...]
     reach: Reach
+    start: Start | None
 
-    @property
-    def written(self) -> bool | None:
-        """A control side writes an image of it (True), reads one (False), or has none (None)."""
+    def written(self, mapped: Collection[str]) -> bool | None:
+        """Tell whether a control side writes an image of it (True), reads one (False), or has none (None)."""
         if self.reach is Reach.SYMBOL:
-            return None
+            return True if self.variable.name in mapped else None
         return isinstance(self.variable, InputArray) and self.reach is Reach.IMAGE
 
 
@@ -56,9 +58,11 @@ class GlobalList:
     def __init__(self) -> None:
         self.entries: list[Entry] = []
 
-    def add(self, variable: V, comment: str, *aliases: str, reach: Reach = Reach.IMAGE) -> V:
+    def add(
+        self, variable: V, comment: str, *aliases: str, reach: Reach = Reach.IMAGE, start: Start | None = None
+    ) -> V:
         """Note a variable, and return it; see `Entry`."""
-        self.entries.append(Entry(variable, comment, aliases, reach))
+        self.entries.append(Entry(variable, comment, aliases, reach, start))
         return variable
 
     def add_constant(self, namespace: str, told: Constant, *aliases: str) -> None:
@@ -72,10 +76,16 @@ class GlobalList:
         for one in self.entries:
             table.add(one.variable.name, one.variable, comment=one.comment, aliases=one.aliases)
 
-    def exported(self) -> list[Variable]:
-        """Return the variables as a control side declares them."""
+    def exported(self, mapped: Collection[str] = ()) -> list[Variable]:
+        """Return the variables as a control side declares them; `mapped` names those that maps hold."""
         return [
-            Variable(one.variable.name.partition(".")[2], one.variable.type, one.comment, one.written)
+            Variable(
+                one.variable.name.partition(".")[2],
+                one.variable.type,
+                one.comment,
+                one.written(mapped),
+                start=one.start,
+            )
             for one in self.entries
             if one.reach is not Reach.NOT
         ]

@@ -4,7 +4,7 @@ What clients write is an `InputArray`, what the layer writes an `OutputArray`. E
 the layer carries out what it is for.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 from motionlayer.iec import STRING, InputArray, OutputArray, SymbolTable, Variable
@@ -38,6 +38,11 @@ CONSTANTS: Final = "PLC_CONSTANT"
 class AxisGlobals(GlobalList):
     """Variables of `GVL_AXIS`, one element per axis but for the selector.
 
+    Args:
+        sizes: how many axes there are.
+        images: their cyclic interface; None on a control side.
+        references: positions that the homings of the axes begin with, u; empty where they are not known.
+
     Attributes:
         ctrl: command.
         state: what has become of it.
@@ -54,7 +59,7 @@ class AxisGlobals(GlobalList):
         ref: cyclic images of the NC.
     """
 
-    def __init__(self, sizes: Sizes, images: "AxisRefs | None") -> None:
+    def __init__(self, sizes: Sizes, images: "AxisRefs | None", references: Sequence[float]) -> None:
         super().__init__()
         last, name = sizes.max_axis, "GVL_AXIS"
         self.ctrl = self.add(InputArray(AxisCtrl, 1, last, f"{name}.Ctrl"), "command")
@@ -63,7 +68,12 @@ class AxisGlobals(GlobalList):
         self.data = self.add(InputArray(MoveData, 1, last, f"{name}.Data"), "where to and how fast")
         self.parameter_in = self.add(InputArray(NcParameter, 1, last, f"{name}.NcParameterIn"), "parameter asked for")
         self.parameter_out = self.add(OutputArray(NcParameter, 1, last, f"{name}.NcParameterOut"), "parameter handled")
-        self.homing = self.add(InputArray(Homing, 1, last, f"{name}.HomeParameter"), "how the axis is homed")
+        start = [{"stHomingParam": {"Position": one}} for one in references] if any(references) else None
+        self.homing = self.add(
+            InputArray(Homing, 1, last, f"{name}.HomeParameter"), "how the axis is homed", start=start
+        )
+        for index, reference in enumerate(references, 1):
+            self.homing[index].parameters.position = reference
         self.gear = self.add(InputArray(GearIn, 1, last, f"{name}.GearInParameter"), "how it is coupled")
         self.options = self.add(InputArray(MotionOptions, 1, last, f"{name}.MotionOptions"), "options of jobs")
         self.switches = self.add(
@@ -106,6 +116,7 @@ class Globals:
         sizes: how many of each there are.
         features: what is built in.
         images: of the axes; None on a control side, whose axes are in another machine.
+        references: what `home.position` is for each axis, u; a control side does not know it.
 
     Attributes:
         sizes: as given.
@@ -121,10 +132,16 @@ class Globals:
         other_messages: `GVL_MSG`.
     """
 
-    def __init__(self, sizes: Sizes, features: Features, images: "AxisRefs | None" = None) -> None:
+    def __init__(
+        self,
+        sizes: Sizes,
+        features: Features,
+        images: "AxisRefs | None" = None,
+        references: Sequence[float] = (),
+    ) -> None:
         self.sizes = sizes
         self.features = features
-        self.axis = AxisGlobals(sizes, images)
+        self.axis = AxisGlobals(sizes, images, references)
         self.program = ProgramGlobals()
         self.functions = FunctionGlobals(sizes)
         self.nci = NciGlobals(sizes)

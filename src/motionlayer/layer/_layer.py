@@ -65,7 +65,8 @@ class MotionLayer:
         self._schedule = options.schedule
         self._waits = Waits()
         self._starting = Starting(self._is_ready)
-        self.globals = Globals(options.sizes, options.features, images)
+        references = [ref.axis.config.home.position for ref in refs]
+        self.globals = Globals(options.sizes, options.features, images, references)
         self.symbols = self.globals.symbols
         programs = self.globals.program
         self._axes = AxisNamespace(self._ports, images, self.globals.axis, programs.axis, self._waits, self._starting)

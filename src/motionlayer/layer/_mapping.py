@@ -163,6 +163,11 @@ class ImageMapping:
         return iter(self._images.values())
 
     @property
+    def symbols(self) -> frozenset[str]:
+        """Names of the variables that images hold, some of their elements or all."""
+        return frozenset(image.partner.array.name for image in self.images)
+
+    @property
     def ports(self) -> Iterator[Port]:
         """What belongs to buses, and not into a snapshot."""
         return (image.port for image in self.images)

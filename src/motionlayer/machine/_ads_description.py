@@ -75,8 +75,8 @@ class AdsLimitsDescription(Table):
     )
     silence: Duration = Field(
         default=10.0,
-        description="How long a connection may take to send a complete frame, the first one or one that it has begun, "
-        "greater than 0 (s); it is closed then.",
+        description="How long a connection may take for the rest of a frame that it has begun, greater than 0 (s); it "
+        "is closed after that. One that has said nothing at all for so long makes room for another.",
     )
 
     @property

@@ -202,7 +202,10 @@ class AdsLink:
             one.given(image)
 
     def _take(self) -> None:
-        """Read all states, and post those that have changed; of another run of the other side, find the symbols."""
+        """Read all states, and post those that have changed; of another run of the other side, find the symbols first.
+
+        What was read of that run is left: it may have been read where its symbols do not lie any more.
+        """
         inputs = self._inputs
         places = [_VERSION, *(one.place for one in inputs)]
         head, size = _CODE.size * len(places), sum(place.size for place in places)
@@ -213,6 +216,7 @@ class AdsLink:
         if before not in (None, version):
             self._tell("the motion machine has begun anew; after its start-up everything is written again")
             self._find()
+            return
         self._version = version
         self._post(answer, head + _VERSION.size)
 

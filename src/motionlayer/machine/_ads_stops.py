@@ -61,7 +61,7 @@ def oriented_stop(ref: "AXIS_REF", data: bytes) -> Command[Any]:
     highest = axis.config.maximum.velocity
     return axis.move_absolute(
         target,
-        velocity=min(abs(last) / axis.override, highest) if axis.override * highest > abs(last) > 0.0 else highest,
+        velocity=min(abs(last) / axis.override, highest) if last and axis.override else highest,
         deceleration=deceleration or None,
         jerk=jerk or None,
     )

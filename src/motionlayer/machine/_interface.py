@@ -20,7 +20,7 @@ def interface(run: MachineRun) -> Declarations:
     shared, name = run.layer.globals, run.machine.name
     axes = shared.sizes.max_axis
     title = f"motionlayer: interface of {name}, {axes} axes"
-    return control_side(shared, title, [*_machine_lists(axes), *run.namespaces.exported()])
+    return control_side(shared, title, [*_machine_lists(axes), *run.namespaces.exported()], run.mapping.symbols)
 
 
 def _machine_lists(axes: int) -> list[VariableList]:

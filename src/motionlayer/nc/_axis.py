@@ -3,10 +3,11 @@
 import math
 
 from motionlayer.command import ErrorId
+from motionlayer.nc._arguments import required
 from motionlayer.nc._braking import AxisBraking
 from motionlayer.nc._config import AxisConfig
 from motionlayer.nc._endless import AxisEndless
-from motionlayer.nc._motion import AxisCommand, Refusal, required
+from motionlayer.nc._motion import AxisCommand, Refusal
 from motionlayer.nc._override import STEPS
 from motionlayer.nc._positioning import AxisPositioning
 from motionlayer.nc._power import AxisPower

@@ -3,7 +3,7 @@
 import functools
 import math
 import operator
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,9 +15,6 @@ from motionlayer.store import Q, Store
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-DEFAULT_MODULO: Final = 360.0
-"""Modulo period (u) of an axis that names none: the modulo position is a view that linear axes have too."""
 
 
 def op_mode(config: AxisConfig) -> OpModeDWord:

@@ -4,9 +4,10 @@ import math
 from typing import Unpack
 
 from motionlayer.event import Kind, Level
+from motionlayer.nc._arguments import Asked
 from motionlayer.nc._keywords import BrakeKeywords, HaltKeywords, checked
 from motionlayer.nc._limits import least_pull
-from motionlayer.nc._motion import BRAKES, Asked, AxisCommand, HeldCommand, Job, JobKind
+from motionlayer.nc._motion import BRAKES, AxisCommand, HeldCommand, Job, JobKind
 from motionlayer.nc._states import TRANSITIONS, AxisEvent, AxisState
 from motionlayer.nc._submission import AxisSubmission
 from motionlayer.profile import Limits

@@ -10,13 +10,7 @@ from motionlayer.nc._config import AxisConfig
 from motionlayer.nc._cycle import AxisCycle
 from motionlayer.nc._limits import limit_text
 from motionlayer.nc._monitors import Monitors, Seen
-from motionlayer.nc._motion import (
-    BOUNDED,
-    AxisCommand,
-    HeldCommand,
-    Job,
-    JobKind,
-)
+from motionlayer.nc._motion import BOUNDED, AxisCommand, HeldCommand, Job, JobKind
 from motionlayer.nc._progress import AxisProgress
 from motionlayer.nc._reaction import REACTIONS, Reaction, status_error
 from motionlayer.nc._states import AxisEvent, AxisState
@@ -94,7 +88,7 @@ class AxisCore(AxisProgress):
         waited = job is not None and job.watched
         if seen.error is None and job is not None and waited:
             self._watch_window(job, on=False)
-            if not _is_held(job):
+            if not job.locks:
                 self._at_rest(job)
         elif seen.error is not None and self._state is not AxisState.ERRORSTOP and (waited or not seen.of_target):
             unit = self.config.unit
@@ -125,7 +119,7 @@ class AxisCore(AxisProgress):
         """Tell whether a job whose setpoint has come to its end waits: for the actual position, or to be released."""
         if self._has_window(job):
             self._watch_window(job, on=True)
-        return job.watched or _is_held(job)
+        return job.watched or job.locks
 
     def _watch_window(self, job: Job, *, on: bool) -> None:
         """Wait for the actual position, or not any more."""
@@ -252,8 +246,3 @@ class AxisCore(AxisProgress):
             plan()
         except PlanError as error:
             self.fault(ErrorId.INTERNAL, str(error))
-
-
-def _is_held(job: Job) -> bool:
-    """Tell whether a stop keeps its axis locked."""
-    return job.kind is JobKind.STOP and isinstance(job.command, HeldCommand) and job.command.held

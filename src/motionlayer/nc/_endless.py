@@ -4,22 +4,13 @@ import math
 from typing import Unpack
 
 from motionlayer.command import ErrorId
+from motionlayer.nc._arguments import Asked, bad_speed, member, number, required
 from motionlayer.nc._config import Direction, JogMode
 from motionlayer.nc._keywords import ContinuousKeywords, EndlessKeywords, JogKeywords, checked
-from motionlayer.nc._motion import (
-    Asked,
-    AxisCommand,
-    HeldCommand,
-    Job,
-    JobKind,
-    Refusal,
-    bad_speed,
-    member,
-    number,
-    required,
-)
+from motionlayer.nc._motion import AxisCommand, HeldCommand, Job, JobKind, Refusal
 from motionlayer.nc._states import AxisEvent
 from motionlayer.nc._submission import AxisSubmission
+from motionlayer.profile import Limits
 
 
 class AxisEndless(AxisSubmission):
@@ -152,16 +143,21 @@ class AxisEndless(AxisSubmission):
             self._submit(command, AxisEvent.MOVE_ENDLESS, text, lambda _start: job)
             return command
         width = (manual.forward if sign > 0.0 else manual.backward) if size is None else size
-        if not 0.0 < width < math.inf:
-            self._refuse(command, Refusal(ErrorId.PARAMETER, f"step = {width}, allowed: 0 < step {self.config.unit}"))
+        return self._inch(command, sign, width, limits, kind, f"{text[:-1]}, step={width})")
+
+    def _inch(
+        self, command: HeldCommand, sign: float, step: float, dynamics: Limits, mode: JogMode, text: str
+    ) -> HeldCommand:
+        """Move by one step, or refuse its size."""
+        if not 0.0 < step < math.inf:
+            self._refuse(command, Refusal(ErrorId.PARAMETER, f"step = {step}, allowed: 0 < step {self.config.unit}"))
             return command
-        dynamics = limits
 
         def make(start: float) -> Job:
-            goal = start + sign * width if kind is JogMode.INCHING else _multiple(start, sign, width)
+            goal = start + sign * step if mode is JogMode.INCHING else _multiple(start, sign, step)
             return Job(JobKind.POSITION, goal, dynamics, command)
 
-        self._submit(command, AxisEvent.MOVE, f"{text[:-1]}, step={width})", make)
+        self._submit(command, AxisEvent.MOVE, text, make)
         return command
 
 

@@ -4,10 +4,11 @@ from collections.abc import Mapping
 from typing import Any, Final, TypedDict
 
 from motionlayer.command import ErrorId, only_known
+from motionlayer.nc._arguments import bad_speed, member, number
 from motionlayer.nc._config import AxisConfig, Direction, HomeConfig, HomingMode
 from motionlayer.nc._homing import LATCHES
 from motionlayer.nc._limits import bad_place
-from motionlayer.nc._motion import Refusal, bad_speed, member, number
+from motionlayer.nc._motion import Refusal
 
 SIGNS: Final = {Direction.POSITIVE: 1.0, Direction.NEGATIVE: -1.0}
 DIRECTIONS: Final = {sign: direction.name for direction, sign in SIGNS.items()}

@@ -8,9 +8,9 @@ from collections.abc import Mapping
 from typing import Any, Final, NamedTuple, TypedDict
 
 from motionlayer.command import only_known
+from motionlayer.nc._arguments import USUAL, Asked, member, number
 from motionlayer.nc._config import BufferMode
 from motionlayer.nc._follower import AT_ONCE, Buffering
-from motionlayer.nc._motion import USUAL, Asked, member, number
 
 
 class RampKeywords(TypedDict, total=False):

@@ -1,4 +1,4 @@
-"""Software limits, feed enables and the ranges of planning: which commands they refuse.
+"""Software limits, feed enables, the ranges of planning and the least dynamics: which commands they refuse.
 
 What a way is compared with is blurred by a share of the sizes that take part, and of nothing else: the same motion in
 µm, mm and m is judged alike.
@@ -10,7 +10,7 @@ from typing import Final
 from motionlayer.command import ErrorId
 from motionlayer.nc._config import AxisConfig
 from motionlayer.nc._motion import BOUNDED, BRAKES, SCALED, TARGETED, Job, JobKind, Refusal
-from motionlayer.profile import RANGES, Profile
+from motionlayer.profile import RANGES, Limits, Profile
 
 BLUR: Final = 1e-9
 """Share of positions and ways that counts as none; ten times what a plan may be off."""
@@ -82,6 +82,20 @@ def _time_to_target(job: Job, profile: Profile) -> float:
 def least_pull(speed: float, jerk: float) -> float:
     """Return the weakest acceleration or deceleration that is planned for certain: V/A is `RANGES.phases` times A/J."""
     return math.sqrt(speed * jerk / RANGES.phases)
+
+
+def least_jerk(v: float, a: float, maximum: Limits) -> float:
+    """Return the least jerk that takes an acceleration, not 0, back within the maxima of the axis.
+
+    With less, bringing `a` to zero would carry |v| beyond the maximum velocity, or, after a reversal, |a| beyond the
+    maximum acceleration: along constant jerk a² changes by 2J per velocity. It never exceeds what got the axis into
+    (v, a).
+    """
+    room = maximum.velocity - math.copysign(v, v * a)
+    needed = a * a / (2.0 * room) if room > 0.0 else maximum.jerk
+    if v * a < 0.0:
+        needed = max(needed, (a * a - maximum.acceleration * maximum.acceleration) / (2.0 * abs(v)))
+    return min(needed, maximum.jerk)
 
 
 def too_weak(job: Job, speed: float, unit: str) -> Refusal | None:

@@ -41,7 +41,8 @@ class AxisPlanning(AxisBase):
 
     @property
     def _here(self) -> Point:
-        return Point(self.set_position, self.set_velocity, self.set_acceleration)
+        values = self._values  # past the properties: every command asks several times
+        return Point(values[Q.SET_P], values[Q.SET_V], values[Q.SET_A])
 
     def _planned(self, job: Job) -> Way:
         """Plan a job from the present setpoint, with the override.

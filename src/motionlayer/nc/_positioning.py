@@ -3,10 +3,11 @@
 from collections.abc import Callable
 from typing import Unpack
 
+from motionlayer.nc._arguments import member, required
 from motionlayer.nc._config import Direction
 from motionlayer.nc._keywords import MoveKeywords, checked
 from motionlayer.nc._modulo import target_from_rest, target_in_motion
-from motionlayer.nc._motion import AxisCommand, Job, JobKind, Refusal, member, required
+from motionlayer.nc._motion import AxisCommand, Job, JobKind, Refusal
 from motionlayer.nc._states import AxisEvent
 from motionlayer.nc._submission import AxisSubmission
 from motionlayer.profile import stop_at

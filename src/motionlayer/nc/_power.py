@@ -2,10 +2,11 @@
 
 import math
 
+from motionlayer.nc._arguments import member
 from motionlayer.nc._config import BufferMode
 from motionlayer.nc._core import AxisCore
 from motionlayer.nc._limits import directions
-from motionlayer.nc._motion import SCALED, AxisCommand, HeldCommand, Job, JobKind, member
+from motionlayer.nc._motion import SCALED, AxisCommand, HeldCommand, Job, JobKind
 from motionlayer.nc._states import AxisEvent, AxisState
 from motionlayer.profile import Profile
 

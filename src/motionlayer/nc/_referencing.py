@@ -5,13 +5,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Unpack
 
 from motionlayer.command import ErrorId
+from motionlayer.nc._arguments import member, number, required
 from motionlayer.nc._config import Calibration, HomeConfig, HomingMode
 from motionlayer.nc._follower import Follower
 from motionlayer.nc._home_keywords import HomeKeywords, asked_home, told
 from motionlayer.nc._homing import LATCHES, HomeCommand, Homing
 from motionlayer.nc._homing_port import HomingPort
 from motionlayer.nc._limits import bad_place, too_weak
-from motionlayer.nc._motion import TARGETED, AxisCommand, Job, JobKind, Refusal, member, number, required
+from motionlayer.nc._motion import TARGETED, AxisCommand, Job, JobKind, Refusal
 from motionlayer.nc._states import AxisEvent, AxisState
 from motionlayer.nc._submission import AxisSubmission
 from motionlayer.profile import PlanError, stop_at

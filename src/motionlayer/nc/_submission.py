@@ -5,10 +5,12 @@ from typing import Final
 
 from motionlayer.command import ErrorId
 from motionlayer.event import Kind, Level
+from motionlayer.nc._arguments import Asked, dynamics
 from motionlayer.nc._config import BufferMode
 from motionlayer.nc._core import AxisCore
 from motionlayer.nc._follower import AT_ONCE, Buffering
-from motionlayer.nc._motion import SCALED, Asked, AxisCommand, Job, JobKind, Refusal, dynamics, least_jerk
+from motionlayer.nc._limits import least_jerk
+from motionlayer.nc._motion import SCALED, AxisCommand, Job, JobKind, Refusal
 from motionlayer.nc._states import AxisEvent, AxisState
 from motionlayer.nc._ways import overshoots
 from motionlayer.profile import Limits

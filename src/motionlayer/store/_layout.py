@@ -6,7 +6,8 @@ from typing import Final
 class Q:
     """Quantity: row of `Store.table`. Units: u, u/s, u/s², u/s³ with the coordinate's own unit u; seconds.
 
-    Plain integers: an enumeration would double the time of every single access.
+    Plain integers: an enumeration would double the time of every single access. A compiled kernel knows numbers of its
+    own module, but no attributes of a class: each module of kernels names the rows that it works on.
     """
 
     SET_P: Final = 0

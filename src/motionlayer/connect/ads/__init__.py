@@ -28,12 +28,13 @@ from motionlayer.connect.ads._nc import (
     function,
     with_parts,
 )
+from motionlayer.connect.ads._nodes import TypeNode
 from motionlayer.connect.ads._numbers import INFO_BY_NAME, SUM_READ, SUM_READ_WRITE, SUM_WRITE, VERSION
 from motionlayer.connect.ads._plan import Contents, Mqtt, Plan
 from motionlayer.connect.ads._router import Access
 from motionlayer.connect.ads._rpc import Calls
 from motionlayer.connect.ads._service import Kind, Outcome, State, Write
-from motionlayer.connect.ads._tree import Tree, TypeNode
+from motionlayer.connect.ads._tree import Tree
 from motionlayer.connect.ads._watch import Sample, Watcher
 from motionlayer.connect.ads._watch_errors import Absent, Lost, WatchError
 

@@ -13,10 +13,12 @@ import socket
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable
 from typing import Final, NamedTuple
 
 from motionlayer.connect import ADS, ServerFailed
+from motionlayer.connect.ads._awake import Awake
 from motionlayer.connect.ads._channel import Channel, Received
 from motionlayer.connect.ads._codes import Code
 from motionlayer.connect.ads._memory import Memory, Shared
@@ -28,6 +30,10 @@ from motionlayer.runtime import Mailbox, MailboxFull, Receipt
 
 START_TIME: Final = 30.0
 """Wall time in seconds that a server may take to begin, or to end."""
+
+AWAKE: Final = 0.002
+"""Seconds that a run which is held up stays awake after an answer: who has asked will ask again, and to fall asleep and
+to wake up takes longer than to answer."""
 
 
 class Hooks(NamedTuple):
@@ -73,6 +79,9 @@ class Bridge:
         self._posted: list[_Posted] = []
         self._shared: Shared | None = None
         self._rings = 0
+        # A server in a thread of this process could not work while this one looks.
+        self._awake = Awake(len(os.sched_getaffinity(0)) if own_process else 1)
+        self._awake_until = 0.0
         here, there = socket.socketpair()
         self._channel = Channel(here)
         self._bell, self._rope = socket.socketpair()
@@ -127,13 +136,25 @@ class Bridge:
         posted, self._posted = self._posted, []
         if posted:
             self._channel.send_all(Message.OUTCOMES, [(one.number, _outcomes(one)) for one in posted])
+            self._awake_until = time.perf_counter() + AWAKE
 
     def sleep(self, seconds: float) -> None:
         """Return after a time, or as soon as a client asks for something or somebody stirs."""
-        if self._poll.poll(seconds * 1e3):
+        if self._stirred_awake() or self._poll.poll(seconds * 1e3):
             self._rings = -1  # it may ring a moment later only
             with contextlib.suppress(BlockingIOError):
                 self._bell.recv(64)
+
+    def _stirred_awake(self) -> bool:
+        """Look for a short time after an answer, without sleeping; tell whether something has come."""
+        shared = self._shared
+        if shared is None or time.perf_counter() >= self._awake_until:
+            return False
+        shared.awake = True
+        try:
+            return self._awake.until(lambda: self._poll.poll(0.0), self._awake_until)
+        finally:
+            shared.awake = False
 
     def stir(self) -> None:
         """Let the run look at once; for any thread."""

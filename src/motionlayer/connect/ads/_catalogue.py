@@ -3,7 +3,6 @@
 import struct
 from typing import Final
 
-from motionlayer.connect.ads._codes import AdsError, Code
 from motionlayer.connect.ads._entries import symbol_entry, type_entry
 from motionlayer.connect.ads._tree import Tree
 
@@ -24,7 +23,8 @@ class Catalogue:
 
     def __init__(self, tree: Tree) -> None:
         types = {node.name: node for node in tree.types}
-        self._types = {name.upper(): type_entry(node, types) for name, node in types.items()}
+        self._tree = tree
+        self._types = {name: type_entry(node, types) for name, node in types.items()}
         self._roots = len(tree.roots)
         self.types = b"".join(self._types.values())
         self.symbols = b"".join(symbol_entry(tree.find(root.name)) for root in tree.roots)
@@ -41,7 +41,4 @@ class Catalogue:
         Raises:
             AdsError: there is none (0x710).
         """
-        entry = self._types.get(name.upper())
-        if entry is None:
-            raise AdsError(Code.SYMBOL_NOT_FOUND, f"no type {name}")
-        return entry
+        return self._types[self._tree.type_named(name).name]

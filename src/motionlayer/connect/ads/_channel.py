@@ -71,7 +71,8 @@ class Channel:
     def flush(self) -> None:
         """Send the rest, as far as the other side takes it now."""
         unsent, self._unsent = bytes(self._unsent), bytearray()
-        self._put(unsent)
+        if unsent:
+            self._put(unsent)
 
     def receive(self) -> list[Received]:
         """Return the messages that are complete now; none if nothing has come.
@@ -82,6 +83,7 @@ class Channel:
         try:
             length = self._socket.recv_into(self._piece)
         except (BlockingIOError, TimeoutError):
+            self.more = False
             return []
         except OSError as error:
             raise EOFError from error

@@ -32,7 +32,8 @@ class Limits:
         watched: bytes of a client's notifications, in all.
         waiting: requests of a connection that wait for the run.
         unsent: bytes for a connection that does not take them; it is closed then.
-        silence: seconds for the first frame of a connection, and for the rest of one that has begun; it is closed then.
+        silence: seconds for the rest of a frame that has begun; the connection is closed after that. Whoever has said
+            nothing for so long makes room where there are too many connections.
     """
 
     connections: int = 64

@@ -56,7 +56,7 @@ class Connection:
         self._lanes: dict[bytes, Lane] = {}
         self._ports: set[int] = set()
         self._commands = Commands(router, lambda packet: send(framed(packet) if split else packet))
-        self._complete, self._looked = 0, -1
+        self._complete, self._begun = 0, -1
         self.closing = False
         """The stream is to be closed when everything has been sent."""
         self.broken = False
@@ -92,10 +92,9 @@ class Connection:
         )
 
     def stuck(self) -> bool:
-        """Tell whether nothing has been completed since the last call, though a frame has begun or none ever came."""
-        waits = self._splitter.pending or not self._complete
-        before, self._looked = self._looked, self._complete
-        return waits and before == self._complete
+        """Tell whether a frame that had begun at the last call has not come to its end."""
+        before, self._begun = self._begun, self._complete if self._splitter.pending else -1
+        return before == self._begun >= 0
 
     def closed(self) -> None:
         """Release everything that was held for this stream."""

@@ -3,7 +3,8 @@
 from collections.abc import Iterable, Sequence
 from typing import Any, Final
 
-from motionlayer.connect.ads._tree import Member, MethodNode, ParameterNode, Root, Tree, TypeNode
+from motionlayer.connect.ads._nodes import Member, MethodNode, ParameterNode, Root, TypeNode
+from motionlayer.connect.ads._tree import Tree
 from motionlayer.iec import Array, Enumeration, IecType, Method, Parameter, StructType, Symbol
 
 ALIGNMENT: Final = 8

@@ -3,8 +3,9 @@
 import struct
 from typing import Final
 
+from motionlayer.connect.ads._nodes import Attributes, MethodNode, ParameterNode, TypeNode
 from motionlayer.connect.ads._numbers import DATA_AREA, DATA_BITS
-from motionlayer.connect.ads._tree import Attributes, MethodNode, ParameterNode, Place, TypeNode
+from motionlayer.connect.ads._tree import Place
 
 CODE_PAGE: Final = "cp1252"
 

@@ -1,7 +1,7 @@
 """`Handles`: numbers that clients hold for values and methods (ads 4)."""
 
 import struct
-from typing import Final
+from typing import Final, TypeVar
 
 from motionlayer.connect.ads._client import Client
 from motionlayer.connect.ads._codes import AdsError, Code
@@ -11,23 +11,23 @@ _U32: Final = struct.Struct("<I")
 _MOST: Final = 0xFFFF_FFFE
 
 
+Held = TypeVar("Held", Place, MethodPlace)
+
+
 class Handles:
     """Handles of all clients.
 
     Attributes:
-        values: what values they stand for.
-        methods: what methods they stand for.
         age: how many have been released: a number may stand for something else since.
     """
 
     def __init__(self) -> None:
-        self.values: dict[int, Place] = {}
-        self.methods: dict[int, MethodPlace] = {}
+        self._held: dict[int, Place | MethodPlace] = {}
         self.age = 0
         self._last = 0
 
     def __len__(self) -> int:
-        return len(self.values) + len(self.methods)
+        return len(self._held)
 
     def take(self, client: Client, what: Place | MethodPlace) -> int:
         """Return a new handle.
@@ -38,12 +38,9 @@ class Handles:
         if len(client.handles) >= client.limits.handles or len(self) >= client.limits.all_handles:
             raise AdsError(Code.NO_MORE_HANDLES, f"{client} holds {len(client.handles)} handles")
         self._last = self._last % _MOST + 1
-        while self._last in self.values or self._last in self.methods:
+        while self._last in self._held:
             self._last = self._last % _MOST + 1
-        if isinstance(what, Place):
-            self.values[self._last] = what
-        else:
-            self.methods[self._last] = what
+        self._held[self._last] = what
         client.handles.add(self._last)
         return self._last
 
@@ -60,7 +57,7 @@ class Handles:
         if len(data) != _U32.size:
             raise AdsError(Code.INVALID_SIZE, f"{len(data)} bytes, a handle has 4")
         (handle,) = _U32.unpack(data)
-        if self.values.pop(handle, None) is None and self.methods.pop(handle, None) is None:
+        if self._held.pop(handle, None) is None:
             raise AdsError(Code.SYMBOL_NOT_FOUND, f"no handle {handle}")
         client.handles.discard(handle)
         self.age += 1
@@ -68,10 +65,13 @@ class Handles:
     def forget(self, client: Client) -> None:
         """Release what a client holds."""
         for handle in client.handles:
-            self.values.pop(handle, None)
-            self.methods.pop(handle, None)
+            self._held.pop(handle, None)
         client.handles.clear()
         self.age += 1
+
+    def find(self, handle: int) -> Place | MethodPlace | None:
+        """Return what a handle stands for, None if there is none."""
+        return self._held.get(handle)
 
     def value(self, handle: int) -> Place:
         """Return the value that a handle stands for.
@@ -79,10 +79,7 @@ class Handles:
         Raises:
             AdsError: there is none (0x710).
         """
-        place = self.values.get(handle)
-        if place is None:
-            raise AdsError(Code.SYMBOL_NOT_FOUND, f"no value has handle {handle}")
-        return place
+        return self._known(handle, Place, "value")
 
     def method(self, handle: int) -> MethodPlace:
         """Return the method that a handle stands for.
@@ -90,7 +87,10 @@ class Handles:
         Raises:
             AdsError: there is none (0x710).
         """
-        method = self.methods.get(handle)
-        if method is None:
-            raise AdsError(Code.SYMBOL_NOT_FOUND, f"no method has handle {handle}")
-        return method
+        return self._known(handle, MethodPlace, "method")
+
+    def _known(self, handle: int, kind: type[Held], name: str) -> Held:
+        what = self._held.get(handle)
+        if not isinstance(what, kind):
+            raise AdsError(Code.SYMBOL_NOT_FOUND, f"no {name} has handle {handle}")
+        return what

@@ -29,7 +29,7 @@ def hint(name: str, symbols: Iterable[SymbolEntry], type_named: Types) -> str:
     """
     known = {one.name.upper(): one for one in symbols}
     asked = name.upper()
-    root = max((one for one in known if re.match(rf"{re.escape(one)}[.\[]", asked)), key=len, default=None)
+    root = max((one for one in known if asked.startswith((f"{one}.", f"{one}["))), key=len, default=None)
     if root is None:
         return _similar(asked, {upper: one.name for upper, one in known.items()})
     found = known[root]

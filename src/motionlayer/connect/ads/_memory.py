@@ -15,7 +15,9 @@ MOST: Final = 64 * 1024 * 1024
 
 
 _BELL: Final = 64
-"""Bytes of the counter in front."""
+"""Bytes of the counters in front."""
+
+_RINGS, _AWAKE = 0, 1  # places of these
 
 
 class Shared:
@@ -34,7 +36,7 @@ class Shared:
 
     def __init__(self, block: memoryview, size: int, cycle_ns: int, *, new: bool = True) -> None:
         end = _end(size)
-        self._rings = block[:_BELL].cast("q")
+        self._bell = block[:_BELL].cast("q")
         self.published = Published(block[_BELL : _BELL + Published.size_of(size)], new=new)
         self.history = History(block[end:], size, _depth(size, cycle_ns))
 
@@ -46,15 +48,24 @@ class Shared:
     @property
     def rings(self) -> int:
         """How often the server has rung."""
-        return self._rings[0]
+        return self._bell[_RINGS]
 
     def ring(self) -> None:
         """Let the run know that something has been sent to it: to look here costs a tick no call of the system."""
-        self._rings[0] += 1
+        self._bell[_RINGS] += 1
+
+    @property
+    def awake(self) -> bool:
+        """The run waits for what is sent to it, and looks all the time: it answers before one could fall asleep."""
+        return bool(self._bell[_AWAKE])
+
+    @awake.setter
+    def awake(self, awake: bool) -> None:
+        self._bell[_AWAKE] = awake
 
     def release(self) -> None:
         """Give the block back; afterwards nothing can be read or written."""
-        self._rings.release()
+        self._bell.release()
         self.published.release()
         self.history.release()
 

@@ -18,6 +18,9 @@ from motionlayer.connect.ads._group import CYCLIC, FIRST, ON_CHANGE, SAMPLE, UNI
 from motionlayer.connect.ads._service import Bytes, Watched
 from motionlayer.connect.ads._watches import Watches
 
+_Key = tuple[Client, Address, int, int]
+"""Who is told from where, and the ticks of cycle and delay: what belongs together."""
+
 
 class Notifications:
     """All notifications of a server.
@@ -32,8 +35,8 @@ class Notifications:
         self._watches = watches
         self._cycle_ns = cycle_ns
         self._limit = limit
-        self._groups: dict[tuple[Client, Address, int, int], Group] = {}
-        self._of: dict[int, tuple[Group, Watched]] = {}
+        self._groups: dict[_Key, Group] = {}
+        self._of: dict[int, tuple[_Key, Watched]] = {}
         self._last = 0
         self._tick = -1
         self._due = -1
@@ -74,7 +77,7 @@ class Notifications:
         head, since = SAMPLE.pack(handle, watched.length), self._watches.add(watched)
         group.notifications[handle] = Notification(watched, order.mode in ON_CHANGE, head, since)
         group.fresh[handle] = FIRST
-        self._of[handle] = group, watched
+        self._of[handle] = key, watched
         self._due = -1
         client.notifications.add(handle)
         client.watched += watched.length
@@ -101,13 +104,14 @@ class Notifications:
         if handle not in client.notifications:
             raise AdsError(Code.NOTIFICATION_HANDLE_INVALID, f"no notification {handle}")
         client.notifications.discard(handle)
-        group, watched = self._of.pop(handle)
+        key, watched = self._of.pop(handle)
         client.watched -= watched.length
         self._watches.remove(watched)
+        group = self._groups[key]
         del group.notifications[handle]
         group.fresh.pop(handle, None)
         if not group.notifications:
-            self._groups = {key: one for key, one in self._groups.items() if one is not group}
+            del self._groups[key]
 
     def forget(self, client: Client) -> None:
         """End what a client had."""

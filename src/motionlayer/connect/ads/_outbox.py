@@ -25,11 +25,13 @@ class ChannelOutbox:
 
     Args:
         channel: to the run.
-        sent: called after something was sent.
+        awake: tells whether the run will answer at once.
+        sent: called after something was sent, with that.
     """
 
-    def __init__(self, channel: Channel, sent: Callable[[], None]) -> None:
+    def __init__(self, channel: Channel, awake: Callable[[], bool], sent: Callable[[bool], None]) -> None:
         self._channel = channel
+        self._awake = awake
         self._sent = sent
         self._waiting: dict[int, Later[list[Outcome]]] = {}
         self._last = 0
@@ -46,8 +48,9 @@ class ChannelOutbox:
         later: Later[list[Outcome]] = Later()
         self._waiting[self._last] = later
         message = Message.CONTROL if writes[0].kind is Kind.CONTROL else Message.REQUEST
+        awake = self._awake()  # asked before: one that is awake takes it, and is at work, when this call returns
         self._channel.send(message, pack_request(client, writes), self._last)
-        self._sent()
+        self._sent(awake)
         return later
 
     def settle(self, number: int, data: bytes) -> None:

@@ -12,6 +12,7 @@ from typing import Final
 
 import uvloop
 
+from motionlayer.connect.ads._awake import Awake
 from motionlayer.connect.ads._channel import Channel, Received
 from motionlayer.connect.ads._image import SharedImage
 from motionlayer.connect.ads._memory import Shared
@@ -33,6 +34,9 @@ REST: Final = 0.05
 BACKLOG: Final = 64
 """Connections that wait until all symbols are known."""
 
+PROMPT: Final = 0.0005
+"""Seconds that the server waits for the answer of a run that is awake; more than it takes."""
+
 PATIENCE: Final = 3600.0
 """Seconds between two looks whether the run is there still, while it has not begun."""
 
@@ -50,8 +54,9 @@ class Server:
     def __init__(self, plan: Plan, contents: Contents, channel: Channel, shared: Shared) -> None:
         self._channel = channel
         channel.on_send = shared.ring
+        self._awake = Awake(len(os.sched_getaffinity(0)))
         self._image = SharedImage(shared.published)
-        self._outbox = ChannelOutbox(channel, self._posted)
+        self._outbox = ChannelOutbox(channel, lambda: shared.awake, self._posted)
         watches = Watches(shared.history, self._image.size)
         self._notifications = Notifications(plan.cycle_ns, plan.limits.all_notifications, watches)
         self._period = max(LOOK, plan.cycle_ns * 1e-9)
@@ -98,10 +103,16 @@ class Server:
         self._loop.call_later(self._period if len(self._notifications) else REST, self._look)
         self._lookout.look()
 
-    def _posted(self) -> None:
-        """Care for what the run has not taken yet."""
+    def _posted(self, awake: bool) -> None:
+        """Take the answer of a run that is awake; care for what the run has not taken yet."""
+        if awake:
+            self._awake.until(self._answered, time.perf_counter() + PROMPT)
         if self._channel.unsent:
             self._loop.add_writer(self._channel.fileno(), self._flush)
+
+    def _answered(self) -> bool:
+        self._heard()
+        return not self._outbox
 
     def _flush(self) -> None:
         self._channel.flush()

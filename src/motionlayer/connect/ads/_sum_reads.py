@@ -13,11 +13,13 @@ from motionlayer.connect.ads._client import Client
 from motionlayer.connect.ads._codes import AdsError, Code
 from motionlayer.connect.ads._numbers import SUM_READ, SUM_READ_EX_2
 from motionlayer.connect.ads._service import Image, Service
-from motionlayer.connect.ads._sums import Room, requests
+from motionlayer.connect.ads._sums import MAX_ANSWER, Room, requests
 
 KNOWN: Final = 64
 LONGEST: Final = 32 * 1024
-"""Sums that are known at a time, and bytes of one, at most."""
+ALL: Final = 128 * 1024
+"""Sums of a connection that are known at a time, bytes of one, and of all, at most: what is known of a sum takes some
+ten times the memory of its bytes."""
 
 WIDEST: Final = 64 * 1024
 """Bytes from the first part to the last, at most, of a sum that is read in one piece."""
@@ -53,6 +55,7 @@ class SumReads:
     def __init__(self, image: Image) -> None:
         self._image = image
         self._known: dict[tuple[Service, int, int, bytes], _Known] = {}
+        self._size = 0
 
     def read(self, service: Service, client: Client, group: int, count: int, data: bytes) -> bytes:
         """Answer F080, F083 and F084; a request that fails occupies its bytes all the same, except in F084.
@@ -87,13 +90,15 @@ class SumReads:
         if len(found) < len(spans) or not found:
             return None
         start, stop = min(at for at, _ in found), max(at + size for at, size in found)
-        if stop - start > WIDEST:
+        if stop - start > WIDEST or sum(size for _, size in found) > MAX_ANSWER:  # parts may overlap
             return None
         cuts = tuple(slice(at - start, at + size - start) for at, size in found)
         joined = all(one.stop == two.start for one, two in itertools.pairwise(cuts))
         head = b"" if _bare(group, count) else _codes(group, [0] * len(cuts), [size for _, size in found])
-        if len(self._known) >= KNOWN:
+        if len(self._known) >= KNOWN or self._size + len(data) > ALL:
             self._known.clear()
+            self._size = 0
+        self._size += len(data)
         known = _Known(service.age, head, start, stop - start, () if joined else cuts)
         self._known[service, group, count, data] = known
         return known

@@ -160,8 +160,8 @@ class SymbolService(Service):
         """Return where in the image a value lies; the arguments are those of `Service.locate`."""
         if group == DATA_AREA and offset + length < self._size:
             return offset, length
-        place = self._handles.values.get(offset) if group == VALUE_BY_HANDLE else None
-        if place is None or place.bit is not None or length > place.type.size:
+        place = self._handles.find(offset) if group == VALUE_BY_HANDLE else None
+        if not isinstance(place, Place) or place.bit is not None or length > place.type.size:
             return None
         return place.offset, length
 

@@ -2,7 +2,7 @@
 
 from motionlayer.iec.export._c import c_header
 from motionlayer.iec.export._csharp import csharp
-from motionlayer.iec.export._declarations import Constant, Declarations, Variable, VariableList
+from motionlayer.iec.export._declarations import Constant, Declarations, Start, Variable, VariableList
 from motionlayer.iec.export._st import literal as st_literal
 from motionlayer.iec.export._st import structured_text
 from motionlayer.iec.export._twincat import twincat
@@ -10,6 +10,7 @@ from motionlayer.iec.export._twincat import twincat
 __all__ = [
     "Constant",
     "Declarations",
+    "Start",
     "Variable",
     "VariableList",
     "c_header",

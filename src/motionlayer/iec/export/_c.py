@@ -2,7 +2,8 @@
 
 Layouts are told to the compiler by `#pragma pack`, and checked by it: a wrong offset does not compile. Members of
 enumerations carry the name of their enumeration, since C has one name space for all; a variable of one is of the
-integer type, whose size an `enum` would not promise. A macro `NAME_INIT` has the declared start values.
+integer type, whose size an `enum` would not promise. A macro `NAME_INIT` has the declared start values of a type, and
+those of a variable that begins with others than its type.
 """
 
 from collections.abc import Iterator, Sequence
@@ -81,6 +82,7 @@ def c_header(told: Declarations) -> dict[str, str]:
         lines += _enumeration(enumeration)
     for struct in told.structs():
         lines += _struct(struct)
+    lines += [f"typedef {kind.name} {name};\n" for name, kind in told.aliases.items()]
     lines += [*_constants(told)]
     for group in told.lists:
         lines += _list(group)
@@ -119,8 +121,7 @@ def _struct(kind: AnyStruct) -> Iterator[str]:
     for run in runs(kind):
         if run[0].bit is None:
             yield f"MOTION_LAYER_CHECK(offsetof({kind.name}, {run[0].name}) == {run[0].offset});"
-    starts = ", ".join(filter(None, map(_start, kind.fields)))
-    yield from [f"#define {kind.name}_INIT {{ {starts or '0'} }}", ""]
+    yield from [f"#define {kind.name}_INIT {_begun(kind, {})}", ""]
 
 
 def _member(one: Member) -> str:
@@ -150,6 +151,20 @@ def _start(one: Member) -> str:
             return ""
         return f".{one.name} = {_nested([f'{inner.name}_INIT'] * prod(shape), shape)}"
     return "" if one.default is None else f".{one.name} = {literal(one.type, one.default)}"
+
+
+def _begun(kind: IecType[Any, Any], start: Any) -> str:  # noqa: ANN401 - as in `literal`
+    """Return a start value as an initialiser; members that it does not name have their own."""
+    if isinstance(kind, StructType):
+        starts = (_given(one, start[one.name]) if one.name in start else _start(one) for one in kind.fields)
+        return f"{{ {', '.join(filter(None, starts)) or '0'} }}"
+    if isinstance(kind, Array):
+        return _nested([_begun(kind.of, one) for one in start], kind.bounds.shape)
+    return literal(kind, start)
+
+
+def _given(one: Member, start: Any) -> str:  # noqa: ANN401
+    return f".{one.name} = {_begun(one.type, start)}"
 
 
 def _has_starts(kind: AnyStruct) -> bool:
@@ -214,4 +229,6 @@ def _list(group: VariableList) -> Iterator[str]:
         yield f"typedef {c_type(one.type)} {group.name}_{one.name}{_room(one.type)};"
         yield f'#define {group.name}_{one.name}_SYMBOL "{group.name}.{one.name}"'
         yield f"MOTION_LAYER_CHECK(sizeof({group.name}_{one.name}) == {one.type.size});"
+        if one.start is not None:
+            yield f"#define {group.name}_{one.name}_INIT {_begun(one.type, one.start)}"
     yield ""

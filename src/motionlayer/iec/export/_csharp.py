@@ -1,16 +1,17 @@
 """Declarations in C#, for `System.Runtime.InteropServices.Marshal` and for ADS clients that marshal by it; C# 7.3.
 
 Structures are sequential with their pack mode. A byte of BITs is a byte with one property per bit. A structure in C#
-has no start values and no arrays of its own: `Create()` makes one with both, as declared. Text is marshalled in the
-ANSI code page of the system, which is that of the interface on Windows alone; ASCII is the same everywhere.
+has no start values and no arrays of its own: `Create()` makes one with both, as declared; `CreateName()` makes those of
+the variable `Name` where they are others than those of its type. Text is marshalled in the ANSI code page of the
+system, which is that of the interface on Windows alone; ASCII is the same everywhere.
 """
 
-import json
 from collections.abc import Iterator, Sequence
 from math import prod
-from typing import Any, Final
+from typing import Final
 
-from motionlayer.iec import REAL, Array, Boolean, Enumeration, IecType, Integer, Member, Real, String, StructType
+from motionlayer.iec import Boolean, Member, String
+from motionlayer.iec.export._csharp_values import INTEGERS, begun, cs_type, is_text, literal, starts
 from motionlayer.iec.export._declarations import (
     AnyEnumeration,
     AnyStruct,
@@ -18,15 +19,11 @@ from motionlayer.iec.export._declarations import (
     VariableList,
     counts,
     element,
-    number,
     one_line,
     runs,
 )
 
 NAME: Final = "MotionLayer.cs"
-
-_INTEGERS: Final = {1: "byte", 2: "ushort", 4: "uint", 8: "ulong", -1: "sbyte", -2: "short", -4: "int", -8: "long"}
-"""By size in bytes, negative where the type has a sign."""
 
 _SIDES: Final = {True: "Side.Writes", False: "Side.Reads", None: "Side.Symbol"}
 
@@ -95,41 +92,6 @@ def csharp(told: Declarations) -> dict[str, str]:
     return {NAME: "\n".join([*lines[:-1], "}"]) + "\n"}
 
 
-def cs_type(kind: IecType[Any, Any]) -> str:
-    """Return the type of a scalar or a structure in C#."""
-    if isinstance(kind, Enumeration | StructType):
-        return kind.name
-    if isinstance(kind, String):
-        return "string"
-    if isinstance(kind, Real):
-        return "float" if kind is REAL else "double"
-    if isinstance(kind, Boolean):
-        return "bool"
-    assert isinstance(kind, Integer)
-    return _INTEGERS[-kind.size if kind.low else kind.size]
-
-
-def literal(kind: IecType[Any, Any], value: Any) -> str:  # noqa: ANN401 - values differ by type
-    """Return a value as an expression in C#."""
-    if isinstance(kind, Enumeration):
-        named = kind.iec_name(value)
-        return f"({kind.name}){named}" if named.lstrip("-").isdigit() else f"{kind.name}.{named}"
-    if isinstance(kind, Boolean):
-        return "true" if value else "false"
-    if isinstance(kind, String):
-        return json.dumps(value)
-    if isinstance(kind, Array):
-        return f"new {cs_type(element(kind))}[] {{ " + ", ".join(literal(kind.of, one) for one in value) + " }"
-    if isinstance(kind, StructType):
-        return f"new {kind.name} {{ " + ", ".join(_given(kind, value)) + " }"
-    return number(kind, value) + ("f" if kind is REAL else "")
-
-
-def _given(kind: AnyStruct, value: object) -> Iterator[str]:
-    for one in kind.fields:
-        yield f"{one.name} = {literal(one.type, getattr(value, one.attribute))}"
-
-
 def _enumeration(kind: AnyEnumeration) -> Iterator[str]:
     yield from [f"public enum {kind.name} : {cs_type(kind.base)}", "{"]
     yield from (f"    {name} = {int(value)}," for name, value in kind.items)
@@ -145,7 +107,7 @@ def _struct(kind: AnyStruct) -> Iterator[str]:
         yield from (f"    {line}" for line in (_member(run[0], kind) if run[0].bit is None else _bits(run)))
     yield from ["", "    /// <summary>Start values as declared, and room for arrays.</summary>"]
     yield f"    public static {kind.name} Create() => new {kind.name}"
-    yield from ["    {", *(f"        {line}," for line in _starts(kind)), "    };", "}", ""]
+    yield from ["    {", *(f"        {line}," for line in starts(kind, {})), "    };", "}", ""]
 
 
 def _member(one: Member, kind: AnyStruct) -> Iterator[str]:
@@ -155,9 +117,9 @@ def _member(one: Member, kind: AnyStruct) -> Iterator[str]:
         if counts(one.type) or isinstance(inner, String):
             raise ValueError(f"{kind.name}.{one.name}: an array or a text cannot be in a union in C#; nest a structure")
         yield "[FieldOffset(0)]"
-    if isinstance(inner, String) and not _is_text(one.type):
+    if isinstance(inner, String) and not is_text(one.type):
         yield f"[MarshalAs(UnmanagedType.ByValArray, SizeConst = {one.type.size // inner.alignment})]"
-        yield f"public {_INTEGERS[inner.alignment]}[] {one.name};"
+        yield f"public {INTEGERS[inner.alignment]}[] {one.name};"
     elif counts(one.type):
         elements = ", ArraySubType = UnmanagedType.I1" if isinstance(inner, Boolean) else ""
         yield f"[MarshalAs(UnmanagedType.ByValArray, SizeConst = {many}{elements})]"
@@ -183,44 +145,6 @@ def _bits(run: Sequence[Member]) -> Iterator[str]:
         yield "}"
 
 
-def _starts(kind: AnyStruct) -> Iterator[str]:
-    for run in runs(kind):
-        one = run[0]
-        if one.bit is not None:
-            byte = sum(1 << (bit.bit or 0) for bit in run if bit.default)
-            if byte:
-                yield f"bits{one.offset} = 0x{byte:02X}"
-        elif one.default is not None:
-            raw = isinstance(element(one.type), String) and not _is_text(one.type)
-            yield f"{one.name} = {_raw(one.type, one.default) if raw else literal(one.type, one.default)}"
-        elif (made := _made(one.type)) is not None:
-            yield f"{one.name} = {made}"
-
-
-def _is_text(kind: IecType[Any, Any]) -> bool:
-    """Tell whether a type is a string in C#; WSTRING and arrays of texts are arrays of their codes there."""
-    return isinstance(kind, String) and kind.alignment == 1
-
-
-def _raw(kind: IecType[Any, Any], value: Any) -> str:  # noqa: ANN401
-    """Return the codes of a WSTRING or of an array of texts."""
-    data, unit = bytearray(kind.size), element(kind).alignment
-    kind.pack_into(value, data)
-    codes = (str(int.from_bytes(data[at : at + unit], "little")) for at in range(0, kind.size, unit))
-    return f"new {_INTEGERS[unit]}[] {{ {', '.join(codes)} }}"
-
-
-def _made(kind: IecType[Any, Any]) -> str | None:
-    """Return what makes the start value of a type that C# starts with null; None for others."""
-    inner, many = element(kind), prod(counts(kind))
-    if isinstance(inner, String):
-        return '""' if _is_text(kind) else f"new {_INTEGERS[inner.alignment]}[{kind.size // inner.alignment}]"
-    if isinstance(inner, StructType):
-        one = f"{inner.name}.Create()"
-        return f"Enumerable.Range(0, {many}).Select(_ => {one}).ToArray()" if counts(kind) else one
-    return f"new {cs_type(inner)}[{many}]" if counts(kind) else None
-
-
 def _constants(told: Declarations) -> Iterator[str]:
     if told.constants:
         yield from [f"public static class {told.constant_list}", "{"]
@@ -237,6 +161,9 @@ def _list(group: VariableList) -> Iterator[str]:
         inner, many = element(one.type), prod(counts(one.type))
         arguments = f'"{group.name}.{one.name}", typeof({cs_type(inner)}), {many}, {one.type.size}'
         yield f"    public static readonly Symbol {one.name} = new Symbol({arguments}, {_SIDES[one.written]});"
+        if one.start is not None:
+            made = f"{cs_type(inner)}{'[]' if counts(one.type) else ''} Create{one.name}()"
+            yield f"    public static {made} => {begun(one.type, one.start)};"
     yield from ["}", ""]
 
 

@@ -1,7 +1,7 @@
 """What is exported: types in an order in which each is declared before it is used, constants and variables."""
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
@@ -11,6 +11,9 @@ from motionlayer.iec import LREAL, Array, Enumeration, IecType, Member, Real, St
 
 AnyEnumeration: TypeAlias = Enumeration[Any]
 AnyStruct: TypeAlias = StructType[Any]
+Start: TypeAlias = Mapping[str, Any] | Sequence[Any] | bool | float | str
+"""A start value: of a structure those members, by their names, that may begin with another one than declared, one at
+least; of an array of structures, with one index, all elements."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +43,7 @@ class Variable:
         comment: what it is for.
         written: the control side writes an image of it (True), reads one (False), or reaches it by symbol alone (None).
         optional: a motion side may lack it.
+        start: start value of this machine; None for that of the type.
     """
 
     name: str
@@ -47,6 +51,7 @@ class Variable:
     comment: str = ""
     written: bool | None = None
     optional: bool = False
+    start: Start | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +82,7 @@ class Declarations:
         constant_list: name of the list of constants.
         start: variable that tells how far the start-up of the motion layer is, `MAIN_AXIS.eInit`; empty where no layer
             is told of.
+        aliases: other names of types. C# has none that outlast a file; there the types have their own names alone.
     """
 
     title: str
@@ -86,6 +92,7 @@ class Declarations:
     lists: Sequence[VariableList] = ()
     constant_list: str = "PLC_CONSTANT"
     start: str = ""
+    aliases: Mapping[str, IecType[Any, Any]] = field(default_factory=dict)
     _order: list[IecType[Any, Any]] = field(init=False, default_factory=list)
 
     def __post_init__(self) -> None:

@@ -45,7 +45,7 @@ def structured_text(told: Declarations) -> dict[str, str]:
 
 def st_objects(told: Declarations) -> list[StObject]:
     """Return everything as the objects of a project: types, lists of variables, functions and blocks."""
-    return [*_types(told), *_constants(told), *map(_list, told.lists), *parts(told)]
+    return [*_types(told), *_aliases(told), *_constants(told), *map(_list, told.lists), *parts(told)]
 
 
 def literal(kind: IecType[Any, Any], value: Any) -> str:  # noqa: ANN401 - values differ by type
@@ -63,6 +63,16 @@ def literal(kind: IecType[Any, Any], value: Any) -> str:  # noqa: ANN401 - value
         parts = (f"{one.name} := {literal(one.type, getattr(value, one.attribute))}" for one in kind.fields)
         return "(" + ", ".join(parts) + ")"
     return number(kind, value)
+
+
+def _begun(kind: IecType[Any, Any], start: Any) -> str:  # noqa: ANN401 - as above
+    """Return a start value; members that it does not name have their own."""
+    if isinstance(kind, StructType):
+        parts = (f"{one.name} := {_begun(one.type, start[one.name])}" for one in kind.fields if one.name in start)
+        return "(" + ", ".join(parts) + ")"
+    if isinstance(kind, Array):
+        return "[" + ", ".join(_begun(kind.of, one) for one in start) + "]"
+    return literal(kind, start)
 
 
 def _text(kind: String, value: str) -> str:
@@ -106,6 +116,11 @@ def _start(member: Member) -> str:
     return "" if member.default is None else f" := {literal(member.type, member.default)}"
 
 
+def _aliases(told: Declarations) -> Iterator[StObject]:
+    for name, kind in told.aliases.items():
+        yield _object(StKind.DUT, name, [f"TYPE {name} : {kind.name};", "END_TYPE"])
+
+
 def _comment(text: str) -> str:
     return f" // {one_line(text)}" if text else ""
 
@@ -128,4 +143,5 @@ def _list(group: VariableList) -> StObject:
 
 
 def _variable(one: Variable) -> str:
-    return f"{one.name}{_PLACES[one.written]} : {one.type.name};{_comment(one.comment)}"
+    start = "" if one.start is None else f" := {_begun(one.type, one.start)}"
+    return f"{one.name}{_PLACES[one.written]} : {one.type.name}{start};{_comment(one.comment)}"

@@ -10,15 +10,8 @@ from motionlayer.layer.types._axis import (
     MoveData,
     NcParameter,
 )
-from motionlayer.layer.types._axis_kinds import (
-    AxisEncoderType,
-    AxisSelector,
-)
-from motionlayer.layer.types._axis_ref import (
-    AxisRef,
-    NcToPlc,
-    PlcToNc,
-)
+from motionlayer.layer.types._axis_kinds import AxisEncoderType, AxisSelector
+from motionlayer.layer.types._axis_ref import AxisRef, NcToPlc, PlcToNc
 from motionlayer.layer.types._cam import (
     MAX_MOTION_FUNCTION_POINTS,
     CamCtrl,
@@ -30,9 +23,7 @@ from motionlayer.layer.types._cam import (
     MotionFunction,
     MotionFunctionPoint,
 )
-from motionlayer.layer.types._cam_info import (
-    CamInfo,
-)
+from motionlayer.layer.types._cam_info import CamInfo
 from motionlayer.layer.types._cam_kinds import (
     CamActivationMode,
     CamOperationMode,
@@ -42,16 +33,8 @@ from motionlayer.layer.types._cam_kinds import (
     MotionPointType,
     TableType,
 )
-from motionlayer.layer.types._checks import (
-    CheckState,
-    MessageCheck,
-    XfcCheck,
-)
-from motionlayer.layer.types._commands import (
-    NO_INIT,
-    AxisCommand,
-    NciCommand,
-)
+from motionlayer.layer.types._checks import CheckState, MessageCheck, XfcCheck
+from motionlayer.layer.types._commands import NO_INIT, AxisCommand, NciCommand
 from motionlayer.layer.types._enumerations import (
     E_AXIS_CTRL,
     E_AXIS_ENCODER_TYPE,
@@ -90,11 +73,7 @@ from motionlayer.layer.types._enumerations import (
     MC_MOTION_POINT_TYPE,
     MC_TABLE_TYPE,
 )
-from motionlayer.layer.types._homing import (
-    HomeParams,
-    Homing,
-    HomingOptions,
-)
+from motionlayer.layer.types._homing import HomeParams, Homing, HomingOptions
 from motionlayer.layer.types._library_kinds import (
     NC_BUFFER_MODES,
     NC_CALIBRATIONS,
@@ -104,53 +83,15 @@ from motionlayer.layer.types._library_kinds import (
     MultiMasterSyncMode,
     SignalEdge,
 )
-from motionlayer.layer.types._message import (
-    Message,
-    MessageCtrl,
-    MessageState,
-)
-from motionlayer.layer.types._message_kinds import (
-    MessageBatch,
-    MessageCommand,
-    MessageFlow,
-)
-from motionlayer.layer.types._nci import (
-    MAX_R_PARA,
-    AxisGroup,
-    IndexGroup,
-    MFunctions,
-    NciCtrl,
-    NciState,
-    RParameters,
-)
-from motionlayer.layer.types._nci_states import (
-    InterpreterState,
-    NciChannelError,
-)
-from motionlayer.layer.types._progress import (
-    Progress,
-)
-from motionlayer.layer.types._saw import (
-    FlyCtrl,
-    FlyData,
-    FlyOptions,
-    FlyState,
-    FlySyncMode,
-)
-from motionlayer.layer.types._selector import (
-    SelectorCtrl,
-    SelectorState,
-)
-from motionlayer.layer.types._sized import (
-    resized,
-)
-from motionlayer.layer.types._touch_probe import (
-    ProbeInput,
-    ProbeStatus,
-    TouchProbeCtrl,
-    TouchProbeState,
-    TwoBits,
-)
+from motionlayer.layer.types._message import Message, MessageCtrl, MessageState
+from motionlayer.layer.types._message_kinds import MessageBatch, MessageCommand, MessageFlow
+from motionlayer.layer.types._nci import MAX_R_PARA, AxisGroup, IndexGroup, MFunctions, NciCtrl, NciState, RParameters
+from motionlayer.layer.types._nci_states import InterpreterState, NciChannelError
+from motionlayer.layer.types._progress import Progress
+from motionlayer.layer.types._saw import FlyCtrl, FlyData, FlyOptions, FlyState, FlySyncMode
+from motionlayer.layer.types._selector import SelectorCtrl, SelectorState
+from motionlayer.layer.types._sized import resized
+from motionlayer.layer.types._touch_probe import ProbeInput, ProbeStatus, TouchProbeCtrl, TouchProbeState, TwoBits
 from motionlayer.layer.types._trigger import (
     MAX_TRIGGER_COUNT,
     TriggerBits,
