@@ -2,6 +2,7 @@
 
 import socket
 import threading
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 
 from motionlayer.bench.campaign._ads_victim import Served
 from motionlayer.connect.ads import Absent, Access, Limits, Lost, Watcher, WatchError
+from motionlayer.connect.ads._frame import RESPONSE, Packet, framed
 from motionlayer.connect.ads._hints import hint
 from motionlayer.connect.ads._leaves import SymbolEntry, TypeEntry
 
@@ -116,17 +118,36 @@ def test_a_device_that_goes_is_lost_and_one_that_is_not_there_absent() -> None:
         Watcher("127.0.0.1", port)
 
 
-def test_who_is_no_ads_device_is_told() -> None:
+def watched(answer: Callable[[bytes], bytes]) -> None:
+    """Watch a symbol of somebody who answers a request so."""
     with socket.create_server(("127.0.0.1", 0)) as server:
 
-        def answer() -> None:
+        def be_asked() -> None:
             stream, _ = server.accept()
             with stream:
-                stream.recv(1024)
-                stream.sendall(b"HTTP/1.1 400 Bad Request\r\n\r\n")
+                stream.sendall(answer(stream.recv(1024)))
 
-        thread = threading.Thread(target=answer)
+        thread = threading.Thread(target=be_asked)
         thread.start()
-        with Watcher(*server.getsockname()) as watcher, pytest.raises(WatchError, match="is no ADS device"):
-            watcher.watch("GVL.Count", 0.1)
-        thread.join()
+        with Watcher(*server.getsockname()) as watcher:
+            try:
+                watcher.watch("GVL.Count", 0.1)
+            finally:
+                thread.join()
+
+
+def test_who_is_no_ads_device_is_told() -> None:
+    with pytest.raises(WatchError, match="is no ADS device"):
+        watched(lambda _request: b"HTTP/1.1 400 Bad Request\r\n\r\n")
+
+
+@pytest.mark.parametrize("said", [b"", b"\0\0", bytes(8), bytes(8) + b"\x40\0\0\0" * 7])
+def test_answers_that_mean_nothing_are_one_clear_error(said: bytes) -> None:
+    def answer(request: bytes) -> bytes:
+        asked = Packet.parse(request[6:])
+        assert asked is not None
+        flags = asked.flags | RESPONSE
+        return framed(Packet(asked.source, asked.target, asked.command, flags, 0, asked.invoke_id, said).pack())
+
+    with pytest.raises(WatchError, match=r"GVL\.Count: what the device has sent means nothing"):
+        watched(answer)

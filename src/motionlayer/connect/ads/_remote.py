@@ -18,7 +18,7 @@ from motionlayer.connect.ads._frame import (
 )
 from motionlayer.connect.ads._meanings import MEANINGS
 from motionlayer.connect.ads._numbers import NOTIFICATION
-from motionlayer.connect.ads._watch_errors import Absent, Lost, RefusedError, WatchError
+from motionlayer.connect.ads._watch_errors import Absent, Lost, RefusedError, WatchError, readable
 
 PATIENCE: Final = 5.0
 """Seconds to wait for a connection or an answer."""
@@ -121,8 +121,10 @@ def _accepted(answer: Packet, what: str) -> bytes:
 
     Raises:
         RefusedError: it says that something was refused.
+        WatchError: it says nothing.
     """
-    code = answer.error or struct.unpack_from("<I", answer.data)[0]
+    with readable(what):
+        code = answer.error or struct.unpack_from("<I", answer.data)[0]
     if code:
         text = MEANINGS[code].text if code in MEANINGS else "error"
         raise RefusedError(f"{what}: {text} (0x{code:X})", code)

@@ -13,7 +13,7 @@ from motionlayer.connect.ads._hints import hint
 from motionlayer.connect.ads._leaves import Leaf, SymbolEntry, TypeEntry, Value, leaves, symbol_of, symbols_of, type_of
 from motionlayer.connect.ads._numbers import ADD_NOTIFICATION, ENTRY_BY_NAME, READ, READ_WRITE, TYPE_BY_NAME, UPLOAD
 from motionlayer.connect.ads._remote import Remote
-from motionlayer.connect.ads._watch_errors import RefusedError, WatchError
+from motionlayer.connect.ads._watch_errors import RefusedError, WatchError, readable
 
 ON_CHANGE: Final = 4
 EPOCH: Final = 116_444_736_000_000_000
@@ -115,7 +115,9 @@ class Watcher:
         symbol, found = self._symbol(name), list(self.values(name))
         order = struct.pack("<6I16x", symbol.group, symbol.offset, symbol.size, ON_CHANGE, 0, round(cycle * 1e7))
         answer = self._device.ask(ADD_NOTIFICATION, order, name)
-        self._watched[struct.unpack_from("<I", answer)[0]] = _Watched(found)
+        with readable(name):
+            (handle,) = struct.unpack_from("<I", answer)
+        self._watched[handle] = _Watched(found)
         return found
 
     def samples(self, timeout: float | None) -> Iterator[Sample]:
@@ -129,12 +131,14 @@ class Watcher:
             WatchError: what comes means nothing.
         """
         for data in self._device.notifications(timeout):
-            yield from self._stream(data)
+            with readable("a notification"):
+                yield from self._stream(data)
 
     def _symbol(self, name: str) -> SymbolEntry:
         if name not in self._symbols:
             try:
-                self._symbols[name] = symbol_of(self._by_name(ENTRY_BY_NAME, name))
+                with readable(name):
+                    self._symbols[name] = symbol_of(self._by_name(ENTRY_BY_NAME, name))
             except RefusedError as error:
                 if error.code not in _NAMES_NOTHING:
                     raise
@@ -144,7 +148,8 @@ class Watcher:
 
     def _type(self, name: str) -> TypeEntry:
         if name not in self._types:
-            self._types[name] = type_of(self._by_name(TYPE_BY_NAME, name))
+            with readable(name):
+                self._types[name] = type_of(self._by_name(TYPE_BY_NAME, name))
         return self._types[name]
 
     def _by_name(self, group: int, name: str) -> bytes:
