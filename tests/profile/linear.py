@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linprog  # type: ignore[import-untyped]
-from scipy.sparse import csr_array, lil_array  # type: ignore[import-untyped]
+from scipy.sparse import csr_array  # type: ignore[import-untyped]
 
 from motionlayer.profile import Limits
 
@@ -66,25 +66,25 @@ def _bounds(signs: NDArray[np.float64], limits: Limits) -> NDArray[np.float64]:
 
 def _steps(times: NDArray[np.float64]) -> csr_array:
     """Return the equations of motion from each grid point to the next."""
-    rows = lil_array((3 * len(times), 4 * len(times) + 4))
-    for k, h in enumerate(times):
-        jerk, p, v, a = range(4 * k, 4 * k + 4)
-        for row, terms in enumerate(
-            (
-                ((p, 1.0), (v, h), (a, h * h / 2.0), (jerk, h * h * h / 6.0), (p + 4, -1.0)),
-                ((v, 1.0), (a, h), (jerk, h * h / 2.0), (v + 4, -1.0)),
-                ((a, 1.0), (jerk, h), (a + 4, -1.0)),
-            )
-        ):
-            for column, value in terms:
-                rows[3 * k + row, column] = value
-    return rows.tocsr()
+    ones, halves = np.ones_like(times), times * times / 2.0
+    terms = (  # row of a step, column of its grid point, factors of all steps
+        *((0, 1, ones), (0, 2, times), (0, 3, halves), (0, 0, times * times * times / 6.0), (0, 5, -ones)),
+        *((1, 2, ones), (1, 3, times), (1, 0, halves), (1, 6, -ones)),
+        *((2, 3, ones), (2, 0, times), (2, 7, -ones)),
+    )
+    step = np.arange(len(times))
+    rows = np.concatenate([3 * step + row for row, _, _ in terms])
+    columns = np.concatenate([4 * step + column for _, column, _ in terms])
+    factors = np.concatenate([values for _, _, values in terms])
+    return csr_array((factors, (rows, columns)), shape=(3 * len(times), 4 * len(times) + 4))
 
 
-def farthest_in(start: Start, direction: float, end_velocity: float, time: float, limits: Limits, steps: int) -> float:
+def farthest_in(
+    start: Start, direction: float, end_velocity: float, time: float, limits: Limits, steps: int, enough: float
+) -> float:
     """Return the greatest direction·p after `time`, over every instant of the reversal if there is one.
 
-    The way may reverse at its begin or at its end, not at both.
+    The way may reverse at its begin or at its end, not at both. No better one than `enough` is looked for.
     """
     begins, ends = start.v * direction >= 0.0, end_velocity * direction >= 0.0
     if begins and ends:
@@ -96,18 +96,14 @@ def farthest_in(start: Start, direction: float, end_velocity: float, time: float
         parts = [Part(share * time, half, first), Part(time - share * time, half, -first)]
         return farthest(start, direction, end_velocity, parts, limits)
 
-    shares = [0.02 + 0.06 * k for k in range(17)]
-    ways = [turned_at(share) for share in shares]
-    best = max(range(len(shares)), key=ways.__getitem__)
-    if ways[best] == UNREACHABLE:
+    farther, share = max((turned_at(share), share) for share in (0.02 + 0.06 * k for k in range(17)))
+    if farther == UNREACHABLE:
         return UNREACHABLE
-    share, farther = shares[best], ways[best]
     for width in (0.015, 0.00375, 0.001):
+        if farther >= enough:
+            break
         around = [share + width * k for k in (-3, -2, -1, 1, 2, 3) if 0.0 < share + width * k < 1.0]
-        ways = [turned_at(other) for other in around]
-        best = max(range(len(around)), key=ways.__getitem__)
-        if ways[best] > farther:
-            share, farther = around[best], ways[best]
+        farther, share = max((farther, share), *((turned_at(other), other) for other in around))
     return farther
 
 
@@ -115,7 +111,8 @@ def can_meet(
     start: Start, direction: float, distance: float, w: float, u: float, time: float, limits: Limits, steps: int
 ) -> bool:
     """Tell whether some way meets at `time`, with velocity u, a point that was `distance` away and moves at w."""
-    return farthest_in(start, direction, u, time, limits, steps) >= direction * (distance + w * time)
+    way = direction * (distance + w * time)
+    return farthest_in(start, direction, u, time, limits, steps, way) >= way
 
 
 def can_return(start: Start, velocity: float, time: float, limits: Limits, steps: int, pull: float) -> bool:

@@ -12,12 +12,6 @@ from motionlayer.runtime import SYSTEM, Conditions, collect_young
 from tests.cli.support import python
 
 
-@pytest.fixture(autouse=True)
-def _nothing_frozen() -> None:
-    """`tests/conftest.py` freezes the tests, and does so again afterwards."""
-    gc.unfreeze()
-
-
 def state() -> tuple[object, ...]:
     return gc.isenabled(), gc.get_freeze_count(), sys.getswitchinterval(), os.sched_getscheduler(0) & 0xFF
 
