@@ -77,6 +77,7 @@ def test_a_program_that_does_not_yield(machine: Path, name: str) -> None:
     assert done.stdout.splitlines()[-1] == f"trace hash: {trace.hash}"
 
 
+@pytest.mark.slow
 def test_a_program_that_swallows_interrupts(machine: Path) -> None:
     done = command("run", machine, *program("stubborn"), "--patience", 0.2, "--trace", "run.trace")
     assert done.returncode == ExitCode.STUCK

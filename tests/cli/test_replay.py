@@ -122,6 +122,7 @@ def test_late_ticks_in_real_time_are_late_again() -> None:
     same()
 
 
+@pytest.mark.slow
 def test_what_threads_have_posted_comes_from_the_trace() -> None:
     trace = recorded("--program", "programs.py:told", "--realtime", "--time", 1.0)
     assert len([one for one in trace.inputs if one.channel == "area.wish"]) > 50
@@ -129,6 +130,7 @@ def test_what_threads_have_posted_comes_from_the_trace() -> None:
     same()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("number", "code", "cause"),
     [

@@ -152,6 +152,7 @@ def test_a_parameter_is_written_and_holds_within_what_the_machine_file_allows(nc
     assert nc.value(PARAMETERS, 0x27, "d") == 500.0
 
 
+@pytest.mark.slow
 def test_the_state_of_an_axis_in_motion_is_that_of_one_tick(nc: Nc) -> None:
     nc.on()
     assert nc.write(FUNCTIONS, END_POSITION, "2Id", ABSOLUTE, 0, 390.0) == 0
@@ -257,6 +258,7 @@ def test_clear_task_drops_what_waits() -> None:
     assert_valid(trace)
 
 
+@pytest.mark.slow
 def test_an_oriented_stop_ends_in_its_orientation(nc: Nc) -> None:
     nc.on()
     assert nc.write(FUNCTIONS, END_POSITION, "2Id", ABSOLUTE, 0, 390.0) == 0

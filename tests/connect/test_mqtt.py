@@ -147,6 +147,7 @@ def test_a_server_that_is_said_to_be_gone_says_that_it_is_not(served: tuple[Simu
     one.close()
 
 
+@pytest.mark.slow
 def test_notifications_go_on_after_a_restart_of_the_broker() -> None:
     port = free_port()
     described = machine(ads={"port": 0, "net_id": SERVER_ID, "mqtt": {"port": port, "network": NETWORK}})

@@ -38,7 +38,8 @@ def test_the_feeder_lags_fails_and_goes_on(capsys: pytest.CaptureFixture[str]) -
     assert stopped.any()
 
 
-@pytest.mark.parametrize("seconds", ["0.3", pytest.param("2", marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("seconds", ["0.3", "2"])
 def test_the_hash_of_noisy_drives_is_the_same_compiled_and_plain(tmp_path: Path, seconds: str) -> None:
     lines = set()
     for mode in ("compiled", "plain"):

@@ -39,6 +39,7 @@ def test_plain_mode_does_without_numba() -> None:
     assert python("compiled", "-c", code).stdout == "True\n"
 
 
+@pytest.mark.slow
 def test_checked_mode_finds_an_index_out_of_bounds(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("MOTIONLAYER_CACHE", str(tmp_path / "cache"))
     script = tmp_path / "beyond.py"

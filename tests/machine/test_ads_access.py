@@ -137,6 +137,7 @@ def own_address() -> str:
         return str(probe.getsockname()[0])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("let_in", [False, True])
 def test_hosts_are_let_in_by_name_or_ended_at_once(let_in: bool) -> None:
     try:
