@@ -96,3 +96,12 @@ def test_after_a_full_piece_more_is_expected_until_nothing_is_left() -> None:
     assert [len(message.data) for message in two.receive()] == [size]
     assert (two.more, two.receive(), two.more) == (True, [], False)
     closed(one, two)
+
+
+def test_what_comes_with_a_message_that_is_waited_for_is_not_lost() -> None:
+    one, two = pair()
+    one.send_all(Message.OUTCOMES, [(1, b"one"), (2, b"two"), (3, b"three")])
+    assert [two.wait(1.0).data, two.wait(1.0).data] == [b"one", b"two"]
+    assert [message.data for message in two.receive()] == [b"three"]
+    assert two.receive() == []
+    closed(one, two)

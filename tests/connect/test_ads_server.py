@@ -2,8 +2,10 @@
 
 import contextlib
 import ipaddress
+import pickle
 import socket
 import struct
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -17,14 +19,21 @@ from motionlayer.connect import ServerFailed
 from motionlayer.connect.ads import (
     Access,
     Bridge,
+    Contents,
     Hooks,
+    Inside,
     Limits,
     Plan,
     Watcher,
     WatchError,
     net_id,
+    tree_of,
 )
+from motionlayer.connect.ads._channel import Channel
 from motionlayer.connect.ads._frame import Address, Packet, framed
+from motionlayer.connect.ads._memory import Memory
+from motionlayer.connect.ads._serve import serve
+from motionlayer.connect.ads._wire import Message
 from motionlayer.event import EventLog
 from motionlayer.runtime import Mailbox
 
@@ -212,3 +221,22 @@ def test_damaged_conversations_leave_memory_and_others_as_they_are() -> None:
         assert state(good).error == 0
         assert resident(process.pid) - before < 4_000_000
         assert process.poll() is None
+
+
+def test_a_server_that_is_told_to_end_before_it_has_begun_ends() -> None:
+    here, there = socket.socketpair()
+    here.settimeout(PATIENCE)
+    inside, memory = Inside(list), Memory()
+    memory.share(inside.size, 1_000_000)
+    plan = Plan("127.0.0.1", 0, net_id("127.0.0.1.1.1"), 1_000_000)
+    run = Channel(here)
+    run.send(Message.PLAN, pickle.dumps(plan))
+    run.send(Message.CONTENTS, pickle.dumps(Contents(tree_of([]), inside.size)))
+    run.send(Message.STOP)
+    server = threading.Thread(target=serve, args=(there, memory.file), daemon=True)
+    server.start()
+    assert run.wait(PATIENCE).message == Message.PORT
+    server.join(PATIENCE)
+    assert not server.is_alive()
+    memory.close()
+    run.close()

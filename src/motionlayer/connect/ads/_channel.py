@@ -47,6 +47,7 @@ class Channel:
         self._socket = end
         self._unsent = bytearray()
         self._rest = bytearray()
+        self._come: list[Received] = []
         self.more = False
         self.on_send: Callable[[], None] = lambda: None
         self._piece = memoryview(bytearray(PIECE))
@@ -80,6 +81,9 @@ class Channel:
         Raises:
             EOFError: the other side is gone.
         """
+        if self._come:
+            come, self._come = self._come, []
+            return come
         try:
             length = self._socket.recv_into(self._piece)
         except (BlockingIOError, TimeoutError):
@@ -99,7 +103,7 @@ class Channel:
         return self._complete()
 
     def wait(self, seconds: float) -> Received:
-        """Return the next message, where there can be but one; this call waits.
+        """Return the next message; this call waits. What has come behind it is left to the next call.
 
         Raises:
             TimeoutError: none comes in time.
@@ -109,8 +113,9 @@ class Channel:
         try:
             while (left := end - time.monotonic()) > 0.0:
                 self._socket.settimeout(left)
-                if found := self.receive():
-                    return found[0]
+                if come := self.receive():
+                    self._come = come[1:]
+                    return come[0]
         finally:
             self._socket.setblocking(False)
         raise TimeoutError(f"no message within {seconds:g} s")

@@ -82,6 +82,7 @@ class Server:
         self._loop = loop
         server = await loop.create_server(lambda: Stream(self._router, self._streams), sock=listening)
         loop.add_reader(self._channel.fileno(), self._heard)
+        self._heard()  # it may have come with what told this server to begin
         self._look()
         async with server, self._network():
             await self._stop
