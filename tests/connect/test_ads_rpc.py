@@ -13,6 +13,7 @@ from motionlayer import AxisState, Machine, Simulation, replay
 from motionlayer.command import ErrorId
 from motionlayer.verify import assert_valid
 from tests.connect.ads_clients import Paced, connected, machine
+from tests.effort import thinned
 from tests.machines import LINEAR
 
 VALUE_BY_HANDLE = 0xF005
@@ -95,7 +96,7 @@ def bare() -> Machine:
     )
 
 
-@pytest.mark.parametrize("made", [bare, machine], ids=["without layer", "with layer"])
+@pytest.mark.parametrize("made", thinned([bare, machine]), ids=["without layer", "with layer"])
 def test_an_axis_is_moved_by_methods_and_the_run_can_be_replayed(made: Callable[[], Machine]) -> None:
     with Simulation(made()) as run:
         with powered(run) as axis:
@@ -113,6 +114,7 @@ def test_an_axis_is_moved_by_methods_and_the_run_can_be_replayed(made: Callable[
     assert repeated.same, repeated.difference
 
 
+@pytest.mark.slow
 def test_the_numbers_of_buffer_modes_are_those_of_the_interface() -> None:
     with Simulation(bare()) as run:
         with powered(run) as axis:

@@ -121,6 +121,7 @@ def test_a_connection_that_breaks_is_told_and_goes_on_when_it_is_there_again() -
         assert warnings(controller) == ["TimeoutError: nobody answers; trying again"]
 
 
+@pytest.mark.slow
 def test_a_motion_machine_that_is_there_anew_is_brought_up_and_then_given_everything() -> None:
     asks: list[ReadWrite] = []
 
