@@ -183,3 +183,28 @@ def test_a_continuous_motion_held_for_long_has_not_passed_its_target(ticks: int)
     run.step(2000)
     assert x.set_velocity == 20.0
     assert_valid(run.trace)
+
+
+@pytest.mark.parametrize("tick", [100, 164, 165, 166, 167, 168, 200, 260])
+def test_an_override_lowered_before_a_place_that_leaves_just_the_room_to_brake(
+    tick: int,
+) -> None:
+    """The acceleration can be taken back only where the place is; a ride of less than a nanosecond remains.
+
+    Found by the campaign `blocks`: verify took that ride for one outside the limit.
+    """
+    run, x = ready(
+        software_limit_min=-50.0,
+        max_acceleration=4000.0,
+        max_deceleration=4000.0,
+        start_position=50.0,
+        max_jerk=20000.0,
+    )
+    move = x.move_continuous_relative(-50.0, 500.0)
+    run.step(tick)
+    x.set_override(0.5)
+    run.step(3)
+    x.set_override(1.0)
+    finish(run, move)
+    assert x.set_position == pytest.approx(-50.0)
+    assert_valid(run.trace)

@@ -8,7 +8,8 @@ A plan may start outside its limits, when they were lowered in motion. The way b
 
 - while |a| is outside, it falls with the full jerk;
 - before |v| falls, it may only do what it does while a goes to zero with the full jerk; then it falls until
-  it is inside, and stays there. A stop does the same until it is at rest, where the shortest one comes to rest.
+  it is inside, and stays there. A ride in between is none that is so short that braking would have changed the
+  velocity by its rounding only. A stop does the same until it is at rest, where the shortest one comes to rest.
 """
 
 from collections.abc import Callable
@@ -33,6 +34,7 @@ class Stretches:
         speed: largest |v|.
         strength: largest |a|.
         grows, falls: what |v| does.
+        brief: whether braking with the full jerk instead would have changed |v| by no more than rounding does.
         relents: whether |a| falls with the full jerk of the plan.
     """
 
@@ -42,6 +44,7 @@ class Stretches:
     strength: Floats
     grows: Flags
     falls: Flags
+    brief: Flags
     relents: Flags
 
 
@@ -70,13 +73,15 @@ def stretches(curves: Curves) -> Stretches:
     middle = curves.evaluate(piece, 0.5 * (start + end), nothing)
     plan, power = curves.owner[piece], middle.v * middle.a
     full = curves.jerk[plan] * (1.0 - TOLERANCES["plan limits"].relative)
+    speed, braked = np.maximum(np.abs(first.v), np.abs(last.v)), 0.5 * curves.jerk[plan] * (end - start) ** 2
     return Stretches(
         plan=plan,
         length=end - start,
-        speed=np.maximum(np.abs(first.v), np.abs(last.v)),
+        speed=speed,
         strength=np.maximum(np.abs(first.a), np.abs(last.a)),
         grows=power > 0.0,
         falls=power < 0.0,
+        brief=(middle.a == 0.0) & (braked <= TOLERANCES["handover"].relative * speed),
         relents=-np.sign(middle.a) * j[piece] >= full,
     )
 
@@ -89,7 +94,8 @@ def _relenting(cut: Stretches, rows: slice) -> int:
 
 def _comes_inside(cut: Stretches, rows: slice, count: int) -> bool:
     """Whether |v| falls over the first `count` stretches of a plan, once a has come to zero."""
-    return bool(cut.falls[rows][_relenting(cut, rows) : count].all())
+    falls = cut.falls[rows] | cut.brief[rows]
+    return bool(falls[_relenting(cut, rows) : count].all())
 
 
 def _softens(cut: Stretches, rows: slice, count: int) -> bool:
