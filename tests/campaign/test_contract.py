@@ -7,7 +7,7 @@ import pytest
 
 from motionlayer.bench.campaign import CAMPAIGNS, repeat
 from motionlayer.bench.campaign._contract import contract, violations
-from motionlayer.bench.campaign._contract_acts import STARTS, Sequence
+from motionlayer.bench.campaign._contract_acts import STARTS, Act, Sequence
 from motionlayer.bench.campaign._contract_oracle import judge
 from motionlayer.bench.campaign._contract_play import SETTLING, Contract, play
 from motionlayer.layer import (
@@ -69,6 +69,23 @@ def test_a_case_ends_where_the_start_up_stands_at_an_axis_that_nobody_initialise
     machine = {"format": 1, "name": "one", "axis": {"A1": AXIS}, "layer": {"timeout": 0.03}, "fault": [fault]}
     case = Contract(machine, [[]], [])
     assert violations(case, play(case)) == []
+
+
+def test_a_change_that_is_taken_back_at_once_starts_the_next_motion_all_the_same() -> None:
+    """Seed 3201, case 1463: the position is another for one cycle, the one before the job acts on it."""
+    machine = {"format": 1, "name": "one", "axis": {"A1": AXIS}, "layer": {"timeout": 0.03}}
+    position = "GVL_AXIS.Data[{}].rSetPos"
+    acts = [
+        Act(1, position, 50.0),
+        Act(1, "GVL_AXIS.Ctrl[{}].eCmd", AxisCommand.MOVE_BUFFER),
+        Act(40, position, 20.0),
+        Act(1, position, 50.0),
+        Act(100, "GVL_AXIS.Ctrl[{}].eProgress", Progress.DONE),
+    ]
+    recording = play(Contract(machine, [[Sequence("StandStill", 0.0, acts)]], []))
+    moves = [one.text for one in recording.events if "move_absolute(position=50.0" in one.text]
+    assert len(moves) == 2
+    assert violations(Contract(machine, [[Sequence("StandStill", 0.0, acts)]], []), recording) == []
 
 
 def test_a_case_repeats_bit_by_bit() -> None:

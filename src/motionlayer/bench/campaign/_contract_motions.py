@@ -49,8 +49,11 @@ def often_enough(watch: Watch, segment: Segment) -> Iterator[Fault]:
 
 
 def as_written(watch: Watch, segment: Segment) -> Iterator[Fault]:
-    """A move goes where the data say in the cycle that starts it; a buffered one follows a change of the data."""
-    before: Rows | None = None
+    """A move goes where the data say in the cycle that starts it; a buffered one follows a change of the data.
+
+    Also one that is taken back before the job has acted on it: a change starts the next motion.
+    """
+    before: int | None = None
     for one in segment.given:
         if not one.method.startswith("move_"):
             continue
@@ -59,10 +62,11 @@ def as_written(watch: Watch, segment: Segment) -> Iterator[Fault]:
         if one.method == "move_absolute" and one.how is not Kind.REFUSED and _is_no_target(watch, one.start):
             yield Fault(watch.name, one.start, "set value", f"{one.text}, and no number was written as the position")
         if segment.command in words.ENDLESS:
-            if before is not None and all(row[name] == before[name] for name in _SET_VALUES[segment.command]):
+            names = _SET_VALUES[segment.command]
+            if before is not None and all(_is_constant(watch.data[name][before : one.start + 1]) for name in names):
                 yield Fault(watch.name, one.start, "how often", f"{one.text} again, and no set value has changed")
                 return
-            before = row
+            before = one.start
 
 
 def followed(watch: Watch, segment: Segment) -> Iterator[Fault]:
@@ -85,6 +89,10 @@ def followed(watch: Watch, segment: Segment) -> Iterator[Fault]:
             text = f"State {watch.state[tick]}, and the new set values are not taken up after {last.text}"
             yield Fault(watch.name, tick, "goes on", text)
             return
+
+
+def _is_constant(values: Rows) -> bool:
+    return bool((values == values[0]).all())
 
 
 def _is_no_target(watch: Watch, tick: int) -> bool:
