@@ -92,7 +92,7 @@ def followed(watch: Watch, segment: Segment) -> Iterator[Fault]:
 
 
 def _is_constant(values: Rows) -> bool:
-    return bool((values == values[0]).all())
+    return bool((values == values[:1]).all())
 
 
 def _is_no_target(watch: Watch, tick: int) -> bool:
