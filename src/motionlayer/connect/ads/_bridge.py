@@ -10,9 +10,6 @@ import os
 import pickle
 import select
 import socket
-import subprocess
-import sys
-import threading
 import time
 from collections.abc import Callable
 from typing import Final, NamedTuple
@@ -21,9 +18,9 @@ from motionlayer.connect import ADS, ServerFailed
 from motionlayer.connect.ads._awake import Awake
 from motionlayer.connect.ads._channel import Channel, Received
 from motionlayer.connect.ads._codes import Code
+from motionlayer.connect.ads._launch import Launched, ServerProcess, ServerThread
 from motionlayer.connect.ads._memory import Memory, Shared
 from motionlayer.connect.ads._plan import Contents, Plan
-from motionlayer.connect.ads._serve import serve
 from motionlayer.connect.ads._service import Outcome, Write
 from motionlayer.connect.ads._wire import Message, pack_outcomes, unpack_request
 from motionlayer.runtime import Mailbox, MailboxFull, Receipt
@@ -90,8 +87,7 @@ class Bridge:
         self._poll = select.poll()
         self._poll.register(self._channel, select.POLLIN)
         self._poll.register(self._bell, select.POLLIN)
-        self._process = _process(there, self._memory.file) if own_process else None
-        self._thread = None if own_process else _thread(there, self._memory.file)
+        self._server: Launched = (ServerProcess if own_process else ServerThread)(there, self._memory.file)
         self._channel.send(Message.PLAN, pickle.dumps(plan))
         try:
             self.port = self._port(plan)
@@ -102,7 +98,7 @@ class Bridge:
     @property
     def pid(self) -> int | None:
         """Number of the server's process; None where it runs in a thread."""
-        return None if self._process is None else self._process.pid
+        return self._server.pid
 
     def share(self, size: int, cycle_ns: int) -> Shared:
         """Return room for an image of so many bytes, which the server will see; called once."""
@@ -165,14 +161,7 @@ class Bridge:
         """Stop the server; its clients are disconnected."""
         self._channel.send(Message.STOP)
         self._channel.drain(START_TIME)
-        if self._process is not None:
-            try:
-                self._process.wait(START_TIME)
-            except subprocess.TimeoutExpired:
-                self._process.kill()
-                self._process.wait()
-        if self._thread is not None:
-            self._thread.join(START_TIME)
+        self._server.wait(START_TIME)
         for end in (self._channel, self._bell, self._rope):
             end.close()
         self._memory.close()
@@ -223,29 +212,3 @@ def _outcomes(posted: _Posted) -> bytes:
 def _refused(request: bytes, code: Code) -> list[Outcome]:
     """Return the outcomes of a request none of whose writes is done."""
     return [Outcome(code)] * len(unpack_request(request)[1])
-
-
-def _process(there: socket.socket, memory: int) -> subprocess.Popen[bytes]:
-    """Start a server process.
-
-    It is no child of `multiprocessing`, which would run the script of the user once more to find it; and in a session
-    of its own, so that Ctrl-C ends the run, and the run its server.
-    """
-    code = "from motionlayer.connect.ads._serve import main; main()"
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    with there:
-        files = there.fileno(), memory
-        return subprocess.Popen(  # noqa: S603 - this interpreter, constant arguments
-            [sys.executable, "-c", code, *map(str, files)],
-            pass_fds=files,
-            stdin=subprocess.DEVNULL,
-            env=environment,
-            start_new_session=True,
-        )
-
-
-def _thread(there: socket.socket, memory: int) -> threading.Thread:
-    """Start a server in a thread."""
-    thread = threading.Thread(target=serve, args=(there, memory), name="ads server", daemon=True)
-    thread.start()
-    return thread
