@@ -144,3 +144,22 @@ def test_a_command_that_waits_for_ever_hides_no_change_of_state() -> None:
     trace = bench.trace()
     assert _rules(trace) == {"state cause"}
     assert "without a command that was just accepted" in _messages(trace)
+
+
+def test_power_that_is_taken_away_while_only_an_enable_is_under_way_is_found() -> None:
+    """Found by the campaign `mutation`: the enable that waits for a brake counted as a reason."""
+    limits = {"max_velocity": 500.0, "max_acceleration": 5000.0, "max_jerk": 1e5}
+    run = Simulation(Machine.from_dict({"format": 1, "name": "m", "axis": {"X": limits}}))
+    x = run.axes["X"]
+    x.enable()
+    run.step(3)
+    x.move_velocity(500.0)
+    run.step(300)
+    waits = x.enable(positive=False)
+    run.step(20)
+    assert waits.busy
+    assert x.set_velocity > 100.0
+    enable = run.trace["X.enable"].copy()
+    enable[-10] = 0.0
+    assert_valid(run.trace)
+    assert "power is taken away without a disable()" in _messages(run.trace.replace({"X.enable": enable}))

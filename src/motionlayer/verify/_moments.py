@@ -18,6 +18,7 @@ class Moments:
     Attributes:
         accepted: a command was accepted.
         enabled: one that asks for power was, or is still under way.
+        disabled: one that takes it away was under way in this row or in the one before.
         ended: a command ended, in whichever way.
         done, aborted, failed: a command ended that way.
         faulted: the axis came into error.
@@ -27,6 +28,7 @@ class Moments:
 
     accepted: Flags
     enabled: Flags
+    disabled: Flags
     ended: Flags
     done: Flags
     aborted: Flags
@@ -47,9 +49,14 @@ class Moments:
             rows(lambda event, kind=kind: event.kind == kind)  # type: ignore[misc]
             for kind in (Kind.DONE, Kind.ABORTED, Kind.ERROR)
         )
+
+        def called(name: str) -> list[Life]:
+            return [life for life in lives.values() if life.text.startswith(f"{name}(")]
+
         return cls(
             accepted=rows(lambda event: event.kind == Kind.ACCEPTED),
-            enabled=_under_way(axis, [life for life in lives.values() if life.text.startswith("enable(")], 0),
+            enabled=_under_way(axis, called("enable"), 0),
+            disabled=_under_way(axis, called("disable"), 1),
             ended=done | aborted | failed,
             done=done,
             aborted=aborted,

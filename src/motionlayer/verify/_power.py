@@ -44,13 +44,13 @@ def _named(axis: Axis, bad: Flags, value: Integers, message: str) -> list[Findin
 
 
 def _requests(axis: Axis, error: Flags, enable: Integers, moments: Moments) -> list[Finding]:
-    """Power is asked for because of a command, and no longer because of a command or an error."""
+    """Power is asked for because of an `enable()`, and no longer because of a `disable()` or an error."""
     change = changes(enable)
     change[0] = enable[0] == 1 and axis.ticks[0] == 0
     on = change & (enable == 1) & ~moments.enabled
-    off = change & (enable == 0) & ~moments.busy_before & ~error
+    off = change & (enable == 0) & ~moments.disabled & ~error
     found = _named(axis, on, enable, "power is asked for without a command")
-    return found + _named(axis, off, enable, "power is taken away without a command or an error")
+    return found + _named(axis, off, enable, "power is taken away without a disable() or an error")
 
 
 def _answers(axis: Axis, enable: Flags, ready: Integers, moments: Moments) -> list[Finding]:
