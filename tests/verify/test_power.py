@@ -106,7 +106,7 @@ def test_an_axis_does_not_come_back_to_standstill_by_itself() -> None:
     ("attributes", "text"),
     [
         ({"ready": False}, "without power in this state"),
-        ({"asked": False}, "taken away without a command or an error"),
+        ({"asked": False}, "taken away without a disable() or an error"),
         ({"state": DISABLED}, "is Disabled and its drive has power"),
     ],
 )
