@@ -1,7 +1,5 @@
 """A source: the cycle fetches from it, applies in the same tick, and tells it the outcomes at the end."""
 
-import time
-
 import pytest
 
 from motionlayer.command import Ledger
@@ -78,9 +76,8 @@ def test_who_waits_at_a_gate_is_woken_when_it_opens() -> None:
     gate = Gate()
     gate.close()
     assert not gate.wait()
-    begin = time.perf_counter()
     gate.open(1)
+    gate.sleeper.sleep(3600.0)  # returns at once, or the test is ended by its timeout
     assert gate.wait()
-    assert time.perf_counter() - begin < 60.0
     assert gate.take(3) == 1
     assert gate.closed
